@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "encase/number.hpp"
+
+namespace encase {
+
+/// A closed interval of doubles with outward rounded arithmetic, whatever the rounding mode's sign:
+/// each operation is done to nearest and its result moved outward by at least one unit in the last
+/// place. NaN bounds enclose everything: every test below is false for them.
+struct Interval {
+  double lo = 0;
+  double hi = 0;
+
+  Interval() = default;
+  Interval(double value) : lo(value), hi(value) {}
+  Interval(double low, double high) : lo(low), hi(high) {}
+
+  /// The tightest doubles around a rational.
+  static Interval enclose(const Rational& value);
+
+  double mid() const { return lo + 0.5 * (hi - lo); }
+  double width() const { return hi - lo; }
+  std::optional<Sign> sign() const {
+    if (lo > 0) return Sign::Positive;
+    if (hi < 0) return Sign::Negative;
+    if (lo == 0 && hi == 0) return Sign::Zero;
+    return std::nullopt;
+  }
+};
+
+/// A double not above / not below every real within one rounding of `x`.
+inline double round_down(double x) {
+  return x - (std::fabs(x) * 0x1p-52 + std::numeric_limits<double>::denorm_min());
+}
+inline double round_up(double x) {
+  return x + (std::fabs(x) * 0x1p-52 + std::numeric_limits<double>::denorm_min());
+}
+
+inline Interval operator-(const Interval& a) { return {-a.hi, -a.lo}; }
+inline Interval operator+(const Interval& a, const Interval& b) {
+  return {round_down(a.lo + b.lo), round_up(a.hi + b.hi)};
+}
+inline Interval operator-(const Interval& a, const Interval& b) { return a + (-b); }
+inline Interval operator*(const Interval& a, const Interval& b) {
+  const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
+  if (std::isnan(p + q + r + s))
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  return {round_down(std::fmin(std::fmin(p, q), std::fmin(r, s))),
+          round_up(std::fmax(std::fmax(p, q), std::fmax(r, s)))};
+}
+inline Interval operator/(const Interval& a, const Interval& b) {
+  if (!(b.lo > 0 || b.hi < 0))
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  const double p = a.lo / b.lo, q = a.lo / b.hi, r = a.hi / b.lo, s = a.hi / b.hi;
+  if (std::isnan(p + q + r + s))
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  return {round_down(std::fmin(std::fmin(p, q), std::fmin(r, s))),
+          round_up(std::fmax(std::fmax(p, q), std::fmax(r, s)))};
+}
+
+}  // namespace encase
