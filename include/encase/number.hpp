@@ -39,6 +39,10 @@ struct DecisionCounts {
 
 /// The rational number written in `text`: an integer, a fraction `p/q`, or a decimal with an
 /// optional exponent ("-1.25e-3"), taken exactly. False if `text` is none of these.
+/// Exponents beyond 100000 in absolute value are refused.
 bool parse_rational(const char* text, Rational* value);
+
+/// The double nearest to a rational, ties to even; infinite beyond the range of doubles.
+double nearest_double(const Rational& value);
 
 }  // namespace encase
