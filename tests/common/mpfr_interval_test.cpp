@@ -64,16 +64,22 @@ TEST(MpfrInterval, QuotientIsTightForEverySign) {
 }
 
 TEST(MpfrInterval, BoundsRoundOutwardsWhenBitsAreFew) {
-  const Rational third(1, 3);
+  // Both operands have 10 bits, product and quotient need more: each bound alone must give way.
+  const Rational a(513, 512), b(515, 512);
   for (const int s : {1, -1})
     for (const int t : {1, -1}) {
-      const MpfrInterval a(10, Rational(s * third)), b(10, Rational(t * Rational(1, 7)));
-      const Bounds product = bounds(a * b), quotient = bounds(a / b);
-      EXPECT_LT(product.lo, s * t * Rational(1, 21));
-      EXPECT_GT(product.hi, s * t * Rational(1, 21));
-      EXPECT_LT(quotient.lo, s * t * Rational(7, 3));
-      EXPECT_GT(quotient.hi, s * t * Rational(7, 3));
+      const MpfrInterval x(10, Rational(s * a)), y(10, Rational(t * b));
+      const Bounds product = bounds(x * y), quotient = bounds(x / y);
+      EXPECT_LT(product.lo, s * t * a * b);
+      EXPECT_GT(product.hi, s * t * a * b);
+      EXPECT_LT(quotient.lo, s * t * a / b);
+      EXPECT_GT(quotient.hi, s * t * a / b);
     }
+  // [-a, b] * [-b, a]: mixed signs take another path.
+  const MpfrInterval x = MpfrInterval(10, -a.get_d(), b.get_d()),
+                     y = MpfrInterval(10, -b.get_d(), a.get_d());
+  EXPECT_LT(bounds(x * y).lo, -b * b);
+  EXPECT_GT(bounds(x * y).hi, a * b);
 }
 
 TEST(MpfrInterval, AnOperandMayBeItsOwnPartner) {
