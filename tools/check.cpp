@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "check.hpp"
+
+#include <fmt/format.h>
+
+#include "encase/result_json.hpp"
+#include "encase/verify.hpp"
+#include "output.hpp"
+
+namespace encase {
+namespace {
+
+std::string verdict(const Encasement& encasement, std::int64_t claims) {
+  std::string text = fmt::format("verified: {} claims re-proved", claims);
+  if (encasement.outcome == Outcome::Degenerate)
+    text += fmt::format("; degenerate: {}", encasement.degenerate.size());
+  if (encasement.outcome == Outcome::Undecided)
+    text += fmt::format("; undecided: {}", encasement.undecided.size());
+  return text + "\n";
+}
+
+}  // namespace
+
+ExitCode run_check(const std::string& file, bool quiet) {
+  const auto text = read_input(file);
+  if (!text) return fail(text.error());
+  const auto encasement = encasement_from_json(text.value(), file == "-" ? "standard input" : file);
+  if (!encasement) return fail(encasement.error());
+  const Verification verification = verify(encasement.value());
+  if (!verification.ok()) {
+    std::string objections;
+    for (const std::string& objection : verification.objections) objections += objection + "\n";
+    if (!quiet)
+      if (const Status status = print(objections)) return fail(*status);
+    return fail({Error::Code::BadInput,
+                 fmt::format("{} is not proved: {} objection{}", file,
+                             verification.objections.size(),
+                             verification.objections.size() == 1 ? "" : "s")});
+  }
+  if (!quiet)
+    if (const Status status = print(verdict(encasement.value(), verification.claims)))
+      return fail(*status);
+  return exit_code(encasement.value().outcome);
+}
+
+}  // namespace encase

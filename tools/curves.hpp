@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "encase/encasement.hpp"
+#include "exit_code.hpp"
+
+namespace encase {
+
+/// What `encase curves` was asked for.
+struct CurvesRequest {
+  std::string file;                      ///< "-" is standard input; empty: `expressions`
+  std::vector<std::string> expressions;  ///< of -e
+  std::string region;                    ///< of --region, overrides the file's
+  std::string json;
+  std::string svg;
+  std::string mesh;
+  std::string vtk_directory;
+  bool history = false;
+  bool summary = false;
+  bool quiet = false;
+  bool verbose = false;
+  int threads = 1;  ///< accepted, without effect at present
+  EncaseOptions options;
+};
+
+/// Reads, encases, writes the files asked for and reports. Errors go to standard error.
+ExitCode run_curves(CurvesRequest request);
+
+}  // namespace encase

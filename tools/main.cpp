@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+//
+// The command `encase`: options in, one of the subcommands called. docs/command.md is its contract.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "check.hpp"
+#include "curves.hpp"
+#include "encase/version.hpp"
+#include "output.hpp"
+#include "random_curves.hpp"
+
+namespace {
+
+constexpr char kExitCodes[] =
+    "Exit codes: 0 certified, 1 usage or bad input, 2 files, 3 something degenerate is reported,\n"
+    "4 something is undecided, 5 internal error.";
+
+void add_curves(CLI::App& app, encase::CurvesRequest& r) {
+  CLI::App* c = app.add_subcommand("curves", "Encase plane curves in a convex region");
+  c->add_option("FILE", r.file, "curves and region, as text or JSON; - is standard input");
+  c->add_option("-e", r.expressions, "a curve, instead of FILE: an expression or lhs = rhs")
+      ->type_name("EXPR")
+      ->expected(1)
+      ->take_all();
+  c->add_option("--region", r.region,
+                "\"xmin xmax ymin ymax\" or \"polygon (x,y) (x,y) ...\"; overrides the file's")
+      ->type_name("REGION");
+  c->add_option("--json", r.json, "write the result, everything that proves it included")
+      ->type_name("FILE");
+  c->add_option("--svg", r.svg, "write a picture")->type_name("FILE");
+  c->add_option("--mesh", r.mesh, "write the cells for OpenMesh: .om, .off, .obj or .ply")
+      ->type_name("FILE");
+  c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");
+  c->add_flag("--history", r.history, "with -o: the splitting as a .pvd with time steps");
+  c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
+  c->add_flag("--relaxed", r.options.relaxed, "accept cells with two branches that do not cross");
+  c->add_option("--perturb", r.options.perturbation,
+                "perturb every coefficient c by up to DELTA (1 + |c|)")
+      ->type_name("DELTA")
+      ->check(CLI::PositiveNumber);
+  c->add_option("--seed", r.options.seed, "of the perturbation")->type_name("N")->capture_default_str();
+  c->add_option("--max-cells", r.options.max_cells, "stop at so many cells")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  c->add_option("--max-seconds", r.options.max_seconds, "stop after so much CPU time")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  c->add_option("--max-bits", r.options.max_bits, "the highest precision to try")
+      ->type_name("N")
+      ->check(CLI::Range(53, 1 << 20))
+      ->capture_default_str();
+  c->add_option("--start-bits", r.options.start_bits, "the precision to start with; 53: doubles")
+      ->type_name("N")
+      ->check(CLI::Range(53, 1 << 20))
+      ->capture_default_str();
+  c->add_option("--threads", r.threads, "accepted; one thread works at present")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  c->add_flag("-q", r.quiet, "print no report");
+  c->add_flag("-v", r.verbose, "report what each step did");
+  c->footer(
+      "FILE has lines `name: expression` or `expression`, with ^ for powers and exact decimals or\n"
+      "fractions, and `region: xmin xmax ymin ymax` or `region: polygon (x,y) (x,y) ...`; # starts a\n"
+      "comment. With - for FILE of --json or --svg it goes to standard output and the report to\n"
+      "standard error.\n\n" +
+      std::string(kExitCodes));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace encase;
+  CLI::App app("Certified encasements of algebraic plane curves", "encase");
+  app.set_version_flag("--version", std::string("encase ") + kVersion);
+  app.require_subcommand(1);
+  app.footer(kExitCodes);
+
+  CurvesRequest curves;
+  add_curves(app, curves);
+
+  std::string result;
+  bool check_quietly = false;
+  CLI::App* check = app.add_subcommand("check", "Prove a result again from its own facts");
+  check->add_option("RESULT", result, "what curves --json wrote; - is standard input")->required();
+  check->add_flag("-q", check_quietly, "print nothing but errors");
+  check->footer(kExitCodes);
+
+  RandomRequest random;
+  CLI::App* generate = app.add_subcommand("random", "Print random curves");
+  add_random_options(*generate, random);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);
+    std::string message = e.what();
+    const auto parsed = app.get_subcommands();
+    message += "; see encase " + (parsed.empty() ? "" : parsed[0]->get_name() + " ") + "--help";
+    return fail({Error::Code::BadInput, message});
+  }
+  try {
+    if (*check) return run_check(result, check_quietly);
+    if (*generate) return run_random(random);
+    return run_curves(curves);
+  } catch (const std::bad_alloc&) {
+    return fail({Error::Code::Undecided, "memory ran out"});
+  } catch (const std::exception& e) {
+    return fail({Error::Code::Internal, std::string("internal error: ") + e.what()});
+  }
+}
