@@ -75,11 +75,13 @@ TEST(MpfrInterval, BoundsRoundOutwardsWhenBitsAreFew) {
       EXPECT_LT(quotient.lo, s * t * a / b);
       EXPECT_GT(quotient.hi, s * t * a / b);
     }
-  // [-a, b] * [-b, a]: mixed signs take another path.
-  const MpfrInterval x = MpfrInterval(10, -a.get_d(), b.get_d()),
-                     y = MpfrInterval(10, -b.get_d(), a.get_d());
+  // Mixed signs take another path; the bounds of x * y are -b * b and a * b, of x * x: -a * b, b *
+  // b.
+  const MpfrInterval x(10, -a.get_d(), b.get_d()), y(10, -b.get_d(), a.get_d());
   EXPECT_LT(bounds(x * y).lo, -b * b);
   EXPECT_GT(bounds(x * y).hi, a * b);
+  EXPECT_LT(bounds(x * x).lo, -a * b);
+  EXPECT_GT(bounds(x * x).hi, b * b);
 }
 
 TEST(MpfrInterval, AnOperandMayBeItsOwnPartner) {
