@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "encase/cover.hpp"
 #include "encase/geometry.hpp"
 #include "encase/polynomial.hpp"
 #include "encase/region.hpp"
@@ -14,7 +15,8 @@
 
 /// The encasement of plane curves in a convex region: a partition of the region by splitting lines
 /// into convex cells, such that
-///   - at most two curves meet a cell, each in one branch that enters and leaves through the boundary;
+///   - at most two curves meet a cell, each in one branch that enters and leaves through the
+///   boundary;
 ///   - two curves in one cell cross exactly once there, transversally, in the interior (in a
 ///     *relaxed* cell: not at all);
 ///   - at most one crossing of a curve lies on a cell edge, and no cell vertex lies on a curve.
@@ -55,32 +57,14 @@ struct Crossing {
 };
 
 /// A simple crossing of a curve with a line. The line a x + b y + c = 0 is parametrised by x where
-/// |b| >= |a| (as doubles), else by y; the open interval (lo, hi) of that parameter holds exactly one
-/// root of the curve's restriction, simple, and the restriction is not zero at lo and hi.
+/// |b| >= |a| (as doubles), else by y; the open interval (lo, hi) of that parameter holds exactly
+/// one root of the curve's restriction, simple, and the restriction is not zero at lo and hi.
 struct LineCrossing {
   int line = -1;
   int curve = -1;
   double lo = 0;
   double hi = 0;
 };
-
-/// The coordinate (0: x, 1: y) by which a line is parametrised.
-inline int parameter_axis(const Line& line) {
-  const double a = line.normal[0] < 0 ? -line.normal[0] : line.normal[0];
-  const double b = line.normal[1] < 0 ? -line.normal[1] : line.normal[1];
-  return b >= a ? 0 : 1;
-}
-
-/// A subdivision of a box, as tokens in preorder: the halves below `x` are left then right, below
-/// `y` bottom then top; cuts are at `lo + (hi - lo) / 2` in doubles.
-namespace cover {
-inline constexpr int kSplitX = -1;
-inline constexpr int kSplitY = -2;
-inline constexpr int kExcluded = -3;    ///< nothing of what is sought lies in the box
-inline constexpr int kOutside = -4;     ///< the box lies outside the region used
-inline constexpr int kUnresolved = -5;  ///< lies in a box of `degenerate` or `undecided`
-// A token k >= 0 names item k: what the box can contain belongs to that item.
-}  // namespace cover
 
 /// Proof that the list of crossings of a pair is complete: the box `root` (which contains the
 /// region used) is subdivided, and in every leaf
@@ -128,8 +112,8 @@ struct Branch {
 };
 
 /// No loop in the cell surrounds the critical region:
-/// the closed segment from `from` (in the region) to `to` (not in the interior of the cell) does not
-/// meet the curve.
+/// the closed segment from `from` (in the region) to `to` (not in the interior of the cell) does
+/// not meet the curve.
 struct LoopCertificate {
   int critical_region = -1;
   Point<2> from{};
@@ -164,12 +148,12 @@ struct Split {
 /// A place that resists: something that generic position excludes, or a budget that ran out.
 struct Unresolved {
   enum class Kind {
-    Contact,             ///< two curves touch, nearly touch, or meet at a singular point
-    SingularPoint,       ///< a curve is or may be singular
-    Concurrency,         ///< three curves meet or nearly meet in a point
-    SharedComponent,     ///< input curves share a component (proved, no box)
-    RepeatedComponent,   ///< an input curve has a repeated component (proved, no box)
-    Budget               ///< a limit on cells, seconds, precision or a cancellation
+    Contact,            ///< two curves touch, nearly touch, or meet at a singular point
+    SingularPoint,      ///< a curve is or may be singular
+    Concurrency,        ///< three curves meet or nearly meet in a point
+    SharedComponent,    ///< input curves share a component (proved, no box)
+    RepeatedComponent,  ///< an input curve has a repeated component (proved, no box)
+    Budget              ///< a limit on cells, seconds, precision or a cancellation
   };
   Kind kind = Kind::Budget;
   Box<2> box;
@@ -198,8 +182,8 @@ struct Encasement {
   double perturbation = 0;        ///< delta, 0 for none
   std::uint64_t seed = 0;
   std::vector<Curve> curves;
-  Region region;       ///< as asked
-  Region region_used;  ///< partitioned: `region`, or larger by at most 2^-30 of its diameter
+  Region region;            ///< as asked
+  Region region_used;       ///< partitioned: `region`, or larger by at most 2^-30 of its diameter
   std::vector<Line> lines;  ///< the sides of region_used in order, then the splitting lines
   std::vector<LineCrossing> line_crossings;
   std::vector<Crossing> crossings;
@@ -215,7 +199,7 @@ struct Encasement {
 };
 
 struct EncaseOptions {
-  bool relaxed = false;         ///< accept relaxed cells wherever they are simple
+  bool relaxed = false;  ///< accept relaxed cells wherever they are simple
   int max_cells = 100000;
   double max_seconds = 60;      ///< CPU seconds of the calling thread
   int max_bits = 848;           ///< precision cap of the MPFR rung

@@ -58,9 +58,9 @@ Box<D> hull(Box<D> a, const Box<D>& b) {
 
 /// The oriented hyperplane normal . x + offset = 0; its negative side is normal . x + offset < 0.
 ///
-/// A splitting hyperplane's doubles are its exact coefficients. A side of the user's region may have
-/// rational coefficients: then `rational` holds them (normal, then offset) and the doubles are those
-/// coefficients rounded to nearest.
+/// A splitting hyperplane's doubles are its exact coefficients. A side of the user's region may
+/// have rational coefficients: then `rational` holds them (normal, then offset) and the doubles are
+/// those coefficients rounded to nearest.
 template <int D>
 struct Hyperplane {
   Point<D> normal{};
@@ -73,6 +73,13 @@ struct Hyperplane {
 };
 
 using Line = Hyperplane<2>;
+
+/// The coordinate (0: x, 1: y) by which a line is parametrised.
+inline int parameter_axis(const Line& line) {
+  const double a = line.normal[0] < 0 ? -line.normal[0] : line.normal[0];
+  const double b = line.normal[1] < 0 ? -line.normal[1] : line.normal[1];
+  return b >= a ? 0 : 1;
+}
 
 extern template struct Hyperplane<1>;
 extern template struct Hyperplane<2>;

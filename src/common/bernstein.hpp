@@ -12,7 +12,7 @@ namespace encase {
 /// A polynomial on the cube [-1,1]^K in tensor Bernstein form: doubles and one proved error radius.
 /// The exact Bernstein coefficients differ from `b` by at most `radius` each, so the polynomial's
 /// values lie in [min b - radius, max b + radius]. An infinite or NaN radius claims nothing.
-/// `b` is contiguous, the last axis running fastest. Scaled by an arbitrary power of two.
+/// `b` is contiguous, the last axis running fastest.
 template <int K>
 struct Bernstein {
   std::array<int, K> degree{};
@@ -42,6 +42,19 @@ void halve(const Bernstein<K>& net, int axis, Bernstein<K>* lower, Bernstein<K>*
 /// The partial derivative with respect to s_axis (degree 0: the zero polynomial of degree 0).
 template <int K>
 void differentiate(const Bernstein<K>& net, int axis, Bernstein<K>* out);
+
+/// The same polynomial with its degree in s_axis raised by one.
+template <int K>
+void elevate(const Bernstein<K>& net, int axis, Bernstein<K>* out);
+
+/// The largest absolute value of a coefficient.
+template <int K>
+double largest_coefficient(const Bernstein<K>& net);
+
+/// The largest absolute difference of coefficients that are neighbours along an axis; a heuristic
+/// measure of how much the polynomial changes along it.
+template <int K>
+double variation(const Bernstein<K>& net, int axis);
 
 /// alpha * f + beta * g, for nets of equal degrees.
 template <int K>

@@ -4,13 +4,48 @@
 #include <array>
 #include <optional>
 
+#include "common/filtered_polynomial.hpp"
 #include "encase/geometry.hpp"
-#include "filtered_polynomial.hpp"
 
 /// What a single box can prove: the statements that certificates are made of. The search asks them
-/// and `verify` asks them again. Each climbs the ladder: doubles, then MPFR where the rounding error
-/// alone stands in the way. False means "not proved", never "disproved".
+/// and `verify` asks them again. False means "not proved", never "disproved".
 namespace encase {
+
+// On nets, without any precision ladder.
+
+/// The nets of D polynomials on one box, of equal degrees.
+template <int D>
+using SystemNets = std::array<Bernstein<D>, D>;
+
+template <int D>
+using Matrix = std::array<std::array<double, D>, D>;
+
+/// The system has no common zero on the closed box: one polynomial keeps a sign, or one of the
+/// combinations that the adjugate of the mean Jacobian suggests does.
+template <int D>
+bool excluded(const SystemNets<D>& nets);
+
+/// A preconditioner Y and a matrix E with |Y J - I| <= E entrywise for every Jacobian J (in the
+/// box's local coordinates) whose rows are gradients at any points of the box, and a positive
+/// vector v with E v < v. Then every such J is regular, so that the system has at most one zero on
+/// the box, a simple one.
+template <int D>
+struct Contraction {
+  Matrix<D> preconditioner;
+  Matrix<D> bound;
+  std::array<double, D> weights;
+};
+
+template <int D>
+std::optional<Contraction<D>> contraction(const SystemNets<D>& nets);
+
+/// No point of the box is both a zero of f and of its gradient, and none is a local maximum of |f|:
+/// a partial derivative or a combination of both keeps a sign, or f keeps a sign and f f_xx > 0,
+/// f f_yy > 0 or det Hess f < 0 holds on the box.
+bool no_relevant_critical_point(const Bernstein<2>& net);
+
+// On boxes. Each climbs the ladder: doubles, then MPFR where the rounding error alone stands in the
+// way of a proof.
 
 /// D polynomials in D variables.
 template <int D>
@@ -24,8 +59,7 @@ std::optional<Sign> sign_on_box(const FilteredPolynomial<D>& f, const Box<D>& bo
 template <int D>
 bool no_common_zero(const System<D>& system, const Box<D>& box, Kernel& kernel);
 
-/// The system has at most one common zero in the closed box, and if it has one it is simple (the
-/// Jacobian is regular on the box).
+/// The system has at most one common zero in the closed box, and if it has one it is simple.
 template <int D>
 bool at_most_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel);
 
@@ -33,9 +67,7 @@ bool at_most_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
 template <int D>
 bool exactly_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel);
 
-/// No point of the closed box is both a zero of f and of its gradient, and none is a local maximum
-/// of |f|: some partial derivative or a combination of them keeps a sign, or f keeps a sign and
-/// f f_xx > 0, f f_yy > 0 or det Hess f < 0 holds on the box.
+/// As on nets.
 bool no_relevant_critical_point(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel);
 
 }  // namespace encase

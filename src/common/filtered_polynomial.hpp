@@ -3,19 +3,43 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "bernstein.hpp"
+#include "common/bernstein.hpp"
+#include "common/kernel.hpp"
 #include "encase/geometry.hpp"
 #include "encase/polynomial.hpp"
-#include "kernel.hpp"
 
 namespace encase {
 
+/// An affine map from [-1,1] to R^2 that parametrises a segment: of a line, or between two points.
+class SegmentChart {
+ public:
+  /// The part of a line whose parameter (see `parameter_axis`) lies in [lo, hi]; s = -1 is lo. The
+  /// chart covers at least that part.
+  static SegmentChart of_line(const Line& line, double lo, double hi);
+  /// The segment from s = -1 to s = 1.
+  static SegmentChart between(const Point<2>& from, const Point<2>& to);
+  /// The part lo <= s <= hi of a segment between two points, or slightly more.
+  SegmentChart part(double lo, double hi) const;
+
+ private:
+  template <int>
+  friend class FilteredPolynomial;
+  template <class Number>
+  void origin_and_direction(std::array<Number, 2>* origin, std::array<Number, 2>* direction) const;
+
+  Line line_;
+  bool on_line_ = false;
+  double lo_ = -1, hi_ = 1;  ///< of the line's parameter, or of the segment's s
+  Point<2> from_{}, to_{};
+};
+
 /// An exact polynomial with what the kernel needs to ask about it quickly: its coefficients as
-/// doubles, and on demand as MPFR intervals of any precision. Immutable but for the cache of
-/// the latter, which is guarded: const queries may run in parallel.
+/// doubles, and on demand in MPFR at any precision. Scaled by a power of two so that the largest
+/// coefficient lies in [1/2, 2). Immutable but for the cache of MPFR coefficients, which is
+/// guarded: const queries may run in parallel. The error bounds are derived in
+/// docs/error-bounds.md.
 template <int D>
 class FilteredPolynomial {
  public:
@@ -25,34 +49,45 @@ class FilteredPolynomial {
   int degree() const { return degree_; }
 
   /// The Bernstein form on a box whose corner lo goes to (-1, ..., -1) and hi to (1, ..., 1), of
-  /// degree `net_degree` (>= degree()) in every variable. `bits` is 53 for doubles with an a-priori
-  /// bound, else the precision of the MPFR intervals the local Taylor coefficients are computed in.
-  /// The form is valid on lo <= x <= hi if (lo + hi) / 2 is a double, else on a slightly larger box
-  /// with the doubles nearest to the centre and above the half widths.
-  void expand(const Box<D>& box, int net_degree, int bits, Kernel& kernel,
-              Bernstein<D>* net) const;
+  /// degree `net_degree` (>= degree()) in every variable. `bits` is 53 for doubles, else the MPFR
+  /// precision in which the local Taylor coefficients are computed. The form is valid on
+  /// lo <= x <= hi if (lo + hi) / 2 is a double, else on a slightly larger box around the double
+  /// nearest to the centre.
+  void expand(const Box<D>& box, int net_degree, int bits, Kernel& kernel, Bernstein<D>* net) const;
 
-  /// A double value at a point, with a proved bound on its error.
+  /// The Bernstein form on a segment, of degree degree().
+  void restrict_to(const SegmentChart& segment, int bits, Kernel& kernel, Bernstein<1>* net) const
+      requires(D == 2);
+
+  /// A double and a proved bound on its distance from the exact (scaled) value.
   struct Value {
     double value;
     double error;
   };
-  Value evaluate(const Point<D>& point) const;
-
-  /// A double value whose error is proved at a point, computed with `bits` of MPFR precision.
   Value evaluate(const Point<D>& point, int bits) const;
+
+  /// An approximate (scaled) gradient, for heuristics and Newton steps.
+  Point<D> gradient(const Point<D>& point) const;
 
   /// The exact sign at a rational point: doubles, MPFR, then exact arithmetic. Never fails.
   Sign sign_at(const RationalPoint<D>& point, Kernel& kernel) const;
 
- private:
-  template <int>
-  friend class LineRestriction;
+  /// |f|(|x|): the sum of |coefficient| |x_0|^i |x_1|^j ..., rounded up, for x >= 0.
+  double absolute(const Point<D>& magnitude) const;
 
+ private:
   struct Cache;
+  template <class Number>
+  std::vector<Number> coefficients(int bits) const;
+  template <class Number, class Coordinate>
+  double horner(const std::array<Coordinate, D>& point, int bits) const;
+  Value with_error(double value, const Point<D>& magnitude, int roundings, int bits) const;
+
   Polynomial<D> exact_;
   int degree_ = 0;
-  std::vector<double> coefficients_;  // dense, (degree_ + 1)^D, last variable fastest
+  int exponent_ = 0;                  ///< the scaled polynomial is exact_ / 2^exponent_
+  std::vector<double> coefficients_;  ///< dense, (degree_ + 1)^D, last variable fastest
+  std::vector<double> magnitudes_;    ///< |coefficients_|, rounded up
   std::shared_ptr<Cache> cache_;
 };
 

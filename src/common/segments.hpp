@@ -4,11 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "encase/encasement.hpp"
+#include "common/filtered_polynomial.hpp"
+#include "common/interval.hpp"
+#include "common/kernel.hpp"
 #include "encase/geometry.hpp"
-#include "filtered_polynomial.hpp"
-#include "interval.hpp"
-#include "kernel.hpp"
 
 /// Plane curves on lines and segments, and where lines meet.
 namespace encase {
@@ -20,14 +19,14 @@ struct RootInterval {
 };
 
 /// All roots of f on the line's parameter interval [lo, hi], in increasing order, in disjoint
-/// intervals within [lo, hi]; all proved simple. Nothing if that cannot be proved (a multiple root, a
-/// root at lo or hi, f zero on the line, or more than max_nodes subdivisions).
+/// intervals within [lo, hi]; all proved simple. Nothing if that cannot be proved (a multiple root,
+/// a root at lo or hi, f zero on the line, or more than max_nodes subdivisions).
 std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomial<2>& f,
                                                          const Line& line, double lo, double hi,
                                                          int max_nodes, Kernel& kernel);
 
-/// f has exactly one root, simple, in the parameter interval (lo, hi) of the line and is not zero at
-/// its ends.
+/// f has exactly one root, simple, in the parameter interval (lo, hi) of the line and is not zero
+/// at its ends.
 bool one_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo, double hi,
                       Kernel& kernel);
 
@@ -39,8 +38,8 @@ bool no_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo
 bool no_root_on_segment(const FilteredPolynomial<2>& f, const Point<2>& from, const Point<2>& to,
                         Kernel& kernel);
 
-/// Halves a root's interval at least once (more where that is cheap); false if doubles leave no room
-/// or the sign at the new end cannot be proved.
+/// Halves a root's interval at least once (more where that is cheap); false if doubles leave no
+/// room or the sign at the new end cannot be proved.
 bool refine_on_line(const FilteredPolynomial<2>& f, const Line& line, RootInterval* root,
                     Kernel& kernel);
 

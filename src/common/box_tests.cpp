@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+#include "common/box_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace encase {
+namespace {
+
+constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
+
+/// The mean of every partial derivative over the coefficients; a heuristic, proves nothing.
+template <int D>
+Matrix<D> mean_jacobian(const SystemNets<D>& nets) {
+  Matrix<D> jacobian{};
+  for (int i = 0; i < D; ++i) {
+    const Bernstein<D>& net = nets[i];
+    int inner = net.size();
+    int outer = 1;
+    for (int axis = 0; axis < D; ++axis) {
+      const int count = net.degree[axis] + 1;
+      inner /= count;
+      double sum = 0;
+      for (int o = 0; o < outer; ++o) {
+        const double* first = net.b.data() + static_cast<std::size_t>(o) * count * inner;
+        const double* last = first + static_cast<std::size_t>(count - 1) * inner;
+        for (int k = 0; k < inner; ++k) sum += last[k] - first[k];
+      }
+      jacobian[i][axis] = 0.5 * sum / (outer * inner);
+      outer *= count;
+    }
+  }
+  return jacobian;
+}
+
+Matrix<1> adjugate(const Matrix<1>&) { return {{{1.0}}}; }
+Matrix<2> adjugate(const Matrix<2>& m) { return {{{m[1][1], -m[0][1]}, {-m[1][0], m[0][0]}}}; }
+Matrix<3> adjugate(const Matrix<3>& m) {
+  Matrix<3> a;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int r = (j + 1) % 3, s = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+      a[i][j] = m[r][c] * m[s][d] - m[r][d] * m[s][c];
+    }
+  return a;
+}
+
+/// The combination of nets with one row of weights.
+template <int D>
+void combine_row(const SystemNets<D>& nets, const std::array<double, D>& row, Bernstein<D>* out) {
+  thread_local Bernstein<D> partial;
+  if constexpr (D == 1) {
+    combine(row[0], nets[0], 0.0, nets[0], out);
+  } else {
+    combine(row[0], nets[0], row[1], nets[1], out);
+    for (int k = 2; k < D; ++k) {
+      partial = *out;
+      combine(1.0, partial, row[k], nets[k], out);
+    }
+  }
+}
+
+/// The largest |value - center| on the cube, rounded up.
+template <int D>
+double deviation(const Bernstein<D>& net, double center) {
+  double lo = net.b[0], hi = net.b[0];
+  for (double x : net.b) {
+    lo = std::min(lo, x);
+    hi = std::max(hi, x);
+  }
+  const double d = std::max(std::fabs(lo - center), std::fabs(hi - center));
+  return (d + net.radius) * kUp + 0x1p-1000;
+}
+
+/// The lower and upper bound on the cube, rounded outward.
+struct Range {
+  double lo;
+  double hi;
+};
+template <int K>
+Range range(const Bernstein<K>& net) {
+  double lo = net.b[0], hi = net.b[0];
+  for (double x : net.b) {
+    lo = std::min(lo, x);
+    hi = std::max(hi, x);
+  }
+  const double slack =
+      net.radius * kUp + 0x1p-1000 + 0x1p-50 * std::max(std::fabs(lo), std::fabs(hi));
+  return {lo - slack, hi + slack};
+}
+
+/// Climbs the ladder: `expand(bits)` fills the nets and returns the largest radius, `proves()`
+/// tells whether they prove the claim, `hopeful()` whether less rounding error might.
+template <class Expand, class Proves, class Hopeful>
+bool climb(Kernel& kernel, Expand expand, Proves proves, Hopeful hopeful) {
+  double before = HUGE_VAL;
+  for (int bits = kernel.start_bits; bits > 0; bits = kernel.next(bits)) {
+    const double radius = expand(bits);
+    if (proves()) {
+      kernel.count(bits);
+      return true;
+    }
+    if (!hopeful()) break;
+    // The Taylor coefficients are rounded to doubles: precision beyond that gains nothing.
+    if (bits > Kernel::kDoubleBits && !(radius < 0.5 * before)) break;
+    before = radius;
+  }
+  return false;
+}
+
+/// Whether the radius is a noticeable part of the net, so that a sharper net may prove more.
+template <int D>
+bool coarse(const Bernstein<D>& net) {
+  return !(net.radius < 0x1p-30 * largest_coefficient(net));
+}
+
+template <int D>
+double expand_system(const System<D>& system, const Box<D>& box, int bits, Kernel& kernel,
+                     SystemNets<D>* nets) {
+  int degree = 0;
+  for (const auto* f : system) degree = std::max(degree, f->degree());
+  double radius = 0;
+  for (int i = 0; i < D; ++i) {
+    system[i]->expand(box, degree, bits, kernel, &(*nets)[i]);
+    radius = std::max(radius, (*nets)[i].radius);
+  }
+  return radius;
+}
+
+}  // namespace
+
+template <int D>
+bool excluded(const SystemNets<D>& nets) {
+  for (const auto& net : nets)
+    if (sign_on_cube(net)) return true;
+  if constexpr (D > 1) {
+    thread_local Bernstein<D> combination;
+    const Matrix<D> rows = adjugate(mean_jacobian<D>(nets));
+    for (int i = 0; i < D; ++i) {
+      combine_row<D>(nets, rows[i], &combination);
+      if (sign_on_cube(combination)) return true;
+    }
+  }
+  return false;
+}
+
+template <int D>
+std::optional<Contraction<D>> contraction(const SystemNets<D>& nets) {
+  const Matrix<D> jacobian = mean_jacobian<D>(nets);
+  Matrix<D> y = adjugate(jacobian);
+  double determinant = 0;
+  for (int k = 0; k < D; ++k) determinant += jacobian[0][k] * y[k][0];
+  if (!(std::fabs(determinant) > 0) || !std::isfinite(1.0 / determinant)) return std::nullopt;
+  Contraction<D> result;
+  thread_local Bernstein<D> row, derivative;
+  for (int i = 0; i < D; ++i) {
+    for (int k = 0; k < D; ++k) result.preconditioner[i][k] = y[i][k] / determinant;
+    combine_row<D>(nets, result.preconditioner[i], &row);
+    for (int j = 0; j < D; ++j) {
+      differentiate(row, j, &derivative);
+      result.bound[i][j] = deviation(derivative, i == j ? 1.0 : 0.0);
+      if (!(result.bound[i][j] < 1e6)) return std::nullopt;
+    }
+    if (!(result.bound[i][i] < 1)) return std::nullopt;
+  }
+  // E v < v for a positive v bounds the spectral radius of E below 1 (Perron, Frobenius). The fixed
+  // point of v = 1 + E v is such a vector; a few iterations come close enough when there is one.
+  std::array<double, D> v;
+  v.fill(1.0);
+  for (int round = 0; round < 60; ++round) {
+    std::array<double, D> next;
+    bool proved = true;
+    for (int i = 0; i < D; ++i) {
+      double sum = 0;
+      for (int j = 0; j < D; ++j) sum += result.bound[i][j] * v[j];
+      proved = proved && sum * kUp < v[i];
+      next[i] = 1 + sum;
+    }
+    if (proved) {
+      result.weights = v;
+      return result;
+    }
+    if (!(next[0] < 1e6)) break;
+    v = next;
+  }
+  return std::nullopt;
+}
+
+bool no_relevant_critical_point(const Bernstein<2>& net) {
+  if (net.degree[0] == 0 || net.degree[1] == 0) return sign_on_cube(net).has_value();
+  thread_local SystemNets<2> gradient;
+  thread_local Bernstein<2> partial;
+  differentiate(net, 0, &partial);
+  if (sign_on_cube(partial)) return true;
+  elevate(partial, 0, &gradient[0]);
+  differentiate(net, 1, &partial);
+  if (sign_on_cube(partial)) return true;
+  elevate(partial, 1, &gradient[1]);
+  if (excluded<2>(gradient)) return true;
+  const auto sign = sign_on_cube(net);
+  if (!sign) return false;
+  // f is not zero here. At a local maximum of |f| the Hessian of f times sign(f) is negative
+  // semi-definite: sign(f) f_xx <= 0, sign(f) f_yy <= 0 and det Hess f >= 0.
+  thread_local Bernstein<2> second;
+  differentiate(net, 0, &partial);
+  differentiate(partial, 0, &second);
+  if (sign_on_cube(second) == sign) return true;
+  const Range xx = range(second);
+  differentiate(partial, 1, &second);
+  const Range xy = range(second);
+  differentiate(net, 1, &partial);
+  differentiate(partial, 1, &second);
+  if (sign_on_cube(second) == sign) return true;
+  const Range yy = range(second);
+  const double product =
+      std::max(std::max(xx.lo * yy.lo, xx.lo * yy.hi), std::max(xx.hi * yy.lo, xx.hi * yy.hi));
+  const double mixed = xy.lo > 0 ? xy.lo : xy.hi < 0 ? -xy.hi : 0.0;
+  const double square = mixed * mixed * (1 - 0x1p-40);
+  return product <= 0 ? square > 0 || product * (1 - 0x1p-40) < -0x1p-900
+                      : product * kUp + 0x1p-900 < square;
+}
+
+template <int D>
+std::optional<Sign> sign_on_box(const FilteredPolynomial<D>& f, const Box<D>& box, Kernel& kernel) {
+  Bernstein<D> net;
+  std::optional<Sign> sign;
+  climb(
+      kernel,
+      [&](int bits) {
+        f.expand(box, f.degree(), bits, kernel, &net);
+        return net.radius;
+      },
+      [&] {
+        sign = sign_on_cube(net);
+        return sign.has_value();
+      },
+      [&] { return drowned(net); });
+  return sign;
+}
+
+template <int D>
+bool no_common_zero(const System<D>& system, const Box<D>& box, Kernel& kernel) {
+  SystemNets<D> nets;
+  return climb(
+      kernel, [&](int bits) { return expand_system<D>(system, box, bits, kernel, &nets); },
+      [&] { return excluded<D>(nets); },
+      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
+}
+
+template <int D>
+bool at_most_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel) {
+  SystemNets<D> nets;
+  return climb(
+      kernel, [&](int bits) { return expand_system<D>(system, box, bits, kernel, &nets); },
+      [&] { return contraction<D>(nets).has_value(); },
+      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
+}
+
+template <int D>
+bool exactly_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel) {
+  // Krawczyk: with K(X) = c - Y F(c) + (I - Y J)(X - c), K(X) in the interior of X proves a zero
+  // in K(X). In local coordinates X = [-1, 1]^D and c = 0. Nets may cover slightly more than the
+  // box where its centre is not a double; then a strictly smaller cube is asked for.
+  SystemNets<D> nets;
+  Point<D> center = box.center();
+  double shrink = 1.0;
+  for (int i = 0; i < D; ++i) {
+    const double below = center[i] - box.lo[i], above = box.hi[i] - center[i];
+    if (!(below > 0 && above > 0)) return false;
+    // The net's half width is at most this much more than the smaller true one.
+    const double net_half = std::max(below, above) * (1 + 0x1p-50) + std::fabs(center[i]) * 0x1p-51;
+    const bool exact =
+        below == above && center[i] - below == box.lo[i] && center[i] + above == box.hi[i];
+    if (!exact) {
+      const double true_half =
+          std::min(below, above) * (1 - 0x1p-50) - std::fabs(center[i]) * 0x1p-51;
+      shrink = std::min(shrink, true_half / net_half * (1 - 0x1p-50));
+    }
+  }
+  if (!(shrink > 0)) return false;
+  return climb(
+      kernel, [&](int bits) { return expand_system<D>(system, box, bits, kernel, &nets); },
+      [&] {
+        const auto c = contraction<D>(nets);
+        if (!c) return false;
+        // F at the centre: de Casteljau's middle point of every net.
+        std::array<double, D> residual{}, value_at_center;
+        for (int i = 0; i < D; ++i) {
+          Bernstein<D> at = nets[i], lower, upper;
+          for (int axis = 0; axis < D; ++axis) {
+            halve(at, axis, &lower, &upper);
+            at = upper;
+          }
+          for (int k = 0; k < D; ++k) residual[k] += std::fabs(c->preconditioner[k][i]) * at.radius;
+          value_at_center[i] = at.b[0];
+        }
+        for (int k = 0; k < D; ++k) {
+          double value = 0, magnitude = 0;
+          for (int i = 0; i < D; ++i) {
+            value += c->preconditioner[k][i] * value_at_center[i];
+            magnitude += std::fabs(c->preconditioner[k][i] * value_at_center[i]);
+          }
+          residual[k] += std::fabs(value) + 0x1p-49 * magnitude;
+          double reach = residual[k];
+          for (int j = 0; j < D; ++j) reach += c->bound[k][j] * shrink;
+          if (!(reach * kUp < shrink)) return false;
+        }
+        return true;
+      },
+      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
+}
+
+bool no_relevant_critical_point(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel) {
+  Bernstein<2> net;
+  return climb(
+      kernel,
+      [&](int bits) {
+        f.expand(box, f.degree(), bits, kernel, &net);
+        return net.radius;
+      },
+      [&] { return no_relevant_critical_point(net); }, [&] { return coarse(net); });
+}
+
+#define ENCASE_INSTANTIATE(D)                                                                     \
+  template bool excluded<D>(const SystemNets<D>&);                                                \
+  template std::optional<Contraction<D>> contraction<D>(const SystemNets<D>&);                    \
+  template std::optional<Sign> sign_on_box(const FilteredPolynomial<D>&, const Box<D>&, Kernel&); \
+  template bool no_common_zero<D>(const System<D>&, const Box<D>&, Kernel&);                      \
+  template bool at_most_one_zero<D>(const System<D>&, const Box<D>&, Kernel&);                    \
+  template bool exactly_one_zero<D>(const System<D>&, const Box<D>&, Kernel&);
+ENCASE_INSTANTIATE(1)
+ENCASE_INSTANTIATE(2)
+ENCASE_INSTANTIATE(3)
+#undef ENCASE_INSTANTIATE
+
+}  // namespace encase

@@ -1,0 +1,529 @@
+// SPDX-License-Identifier: MIT
+#include "common/filtered_polynomial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+
+#include "common/mpfr_number.hpp"
+#include "encase/encasement.hpp"
+
+// Every quantity below is a sum of products of coefficients and coordinates. If each product passes
+// through at most m roundings, the computed sum errs by at most gamma_m times the same sum of
+// absolute values (Higham, Accuracy and Stability, section 3.1), gamma_m = m u / (1 - m u). The
+// counts m are derived in docs/error-bounds.md.
+namespace encase {
+namespace {
+
+/// gamma_m for MPFR or double arithmetic with the given precision, rounded up.
+double gamma(int roundings, int bits) { return 1.01 * roundings * std::ldexp(1.0, -bits); }
+
+/// More than gradual underflow can add up to in the double rung: every loss is below 2^-1000 (also
+/// that of converting a coefficient) and is amplified by at most (1 + |x|)^n in each variable.
+template <int D>
+double underflow(const Point<D>& magnitude, int degree) {
+  double bound = 0x1p-960;
+  for (double x : magnitude) bound *= std::pow(1.0 + x, degree);
+  return bound;
+}
+
+constexpr int kCoefficientRoundings = 2;  // mpq -> double truncates: at most one ulp
+
+/// Rows k, columns j: the Bernstein coefficients of s^k on [-1,1] in degree n. The blossom of s^k
+/// at j ones and n - j minus ones: an average of products of signs, hence at most 1 in absolute
+/// value.
+std::vector<double> make_conversion(int n) {
+  std::vector<double> table(static_cast<std::size_t>(n + 1) * (n + 1));
+  Integer chosen, p, q;
+  for (int k = 0; k <= n; ++k) {
+    mpz_bin_uiui(chosen.get_mpz_t(), n, k);
+    for (int j = 0; j <= n; ++j) {
+      Integer sum = 0;
+      for (int i = std::max(0, k - (n - j)); i <= std::min(j, k); ++i) {
+        mpz_bin_uiui(p.get_mpz_t(), j, i);
+        mpz_bin_uiui(q.get_mpz_t(), n - j, k - i);
+        if ((k - i) % 2)
+          sum -= p * q;
+        else
+          sum += p * q;
+      }
+      Rational entry(sum, chosen);
+      entry.canonicalize();
+      table[static_cast<std::size_t>(k) * (n + 1) + j] = entry.get_d();
+    }
+  }
+  return table;
+}
+
+const std::vector<double>& conversion(int n) {
+  static std::array<std::once_flag, 2 * kMaxDegree + 2> once;
+  static std::array<std::vector<double>, 2 * kMaxDegree + 2> tables;
+  std::call_once(once[n], [n] { tables[n] = make_conversion(n); });
+  return tables[n];
+}
+
+/// Turns Taylor coefficients in [-1,1]^K (dense, degree n in every variable, of total degree n)
+/// into a Bernstein net of degree `net_degree` in every variable. `taylor_error` bounds the sum of
+/// the errors of all Taylor coefficients.
+template <int K>
+void to_bernstein(const std::vector<double>& taylor, int n, double taylor_error, int net_degree,
+                  Bernstein<K>* net) {
+  double sum = 0;
+  for (double a : taylor) sum += std::fabs(a);
+  const double radius = 1.0000001 * taylor_error +
+                        gamma(K * (n + 4) + static_cast<int>(taylor.size()) / 64, 53) * sum;
+  net->degree.fill(net_degree);
+  const std::vector<double>& table = conversion(net_degree);
+  const int m = net_degree + 1;
+  thread_local std::vector<double> scratch;
+  net->b = taylor;
+  // From the last variable to the first: [outer: powers][n + 1][inner: already converted].
+  int inner = 1, outer = 1;
+  for (int i = 1; i < K; ++i) outer *= n + 1;
+  for (int axis = K - 1; axis >= 0; --axis) {
+    scratch.assign(static_cast<std::size_t>(outer) * m * inner, 0.0);
+    for (int o = 0; o < outer; ++o) {
+      int used = 0;
+      for (int rest = o; rest > 0; rest /= n + 1) used += rest % (n + 1);
+      for (int k = 0; k <= n - used; ++k) {
+        const double* row = &table[static_cast<std::size_t>(k) * m];
+        const double* from = &net->b[(static_cast<std::size_t>(o) * (n + 1) + k) * inner];
+        double* to = &scratch[static_cast<std::size_t>(o) * m * inner];
+        if (inner == 1) {
+          const double a = *from;
+          for (int j = 0; j < m; ++j) to[j] += row[j] * a;
+        } else {
+          for (int j = 0; j < m; ++j)
+            for (int i = 0; i < inner; ++i) to[j * inner + i] += row[j] * from[i];
+        }
+      }
+    }
+    net->b.swap(scratch);
+    inner *= m;
+    outer /= n + 1;
+  }
+  net->radius = radius;
+  if (!std::isfinite(radius)) {
+    net->b.assign(net->b.size(), 0.0);
+    net->radius = std::numeric_limits<double>::infinity();
+  }
+}
+
+template <class Number>
+Number make_number(int bits) {
+  if constexpr (std::is_same_v<Number, double>)
+    return 0.0;
+  else
+    return Number(bits);
+}
+
+/// p(x) -> p(origin + direction s), for `count` coefficients `stride` apart. A coefficient passes
+/// through at most 4 roundings a degree.
+template <class Number>
+void shift_and_scale(Number* c, int count, int stride, const Number& origin,
+                     const Number& direction, Number power) {
+  for (int i = 0; i + 1 < count; ++i)
+    for (int j = count - 2; j >= i; --j) add_product(c[j * stride], origin, c[(j + 1) * stride]);
+  for (int j = 1; j < count; ++j) {
+    if (j == 1)
+      power = direction;
+    else
+      multiply(power, direction);
+    multiply(c[j * stride], power);
+  }
+}
+
+/// Rounds to doubles and adds what that costs to the error.
+template <class Number>
+std::vector<double> round_all(const std::vector<Number>& values, double* error) {
+  if constexpr (std::is_same_v<Number, double>) {
+    return values;
+  } else {
+    std::vector<double> rounded(values.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      rounded[i] = to_double(values[i]);
+      sum += std::fabs(rounded[i]);
+    }
+    *error += 1.01 * 0x1p-53 * sum + 0x1p-1040;
+    return rounded;
+  }
+}
+
+}  // namespace
+
+template <int D>
+struct FilteredPolynomial<D>::Cache {
+  std::mutex mutex;
+  std::map<int, std::vector<Mpfr>> by_bits;
+};
+
+template <int D>
+FilteredPolynomial<D>::FilteredPolynomial(Polynomial<D> exact)
+    : exact_(std::move(exact)),
+      degree_(std::max(0, exact_.degree())),
+      cache_(std::make_shared<Cache>()) {
+  exponent_ = std::numeric_limits<int>::min();
+  for (const auto& term : exact_.terms()) {
+    long e = 0;
+    // |numerator| and |denominator| lie in [2^(s-1), 2^s).
+    e = static_cast<long>(mpz_sizeinbase(term.coefficient.get_num_mpz_t(), 2)) -
+        static_cast<long>(mpz_sizeinbase(term.coefficient.get_den_mpz_t(), 2));
+    exponent_ = std::max<long>(exponent_, e);
+  }
+  if (exact_.is_zero()) exponent_ = 0;
+  std::size_t size = 1;
+  for (int i = 0; i < D; ++i) size *= degree_ + 1;
+  coefficients_.assign(size, 0.0);
+  magnitudes_.assign(size, 0.0);
+  for (const auto& term : exact_.terms()) {
+    std::size_t index = 0;
+    for (int i = 0; i < D; ++i) index = index * (degree_ + 1) + term.exponent[i];
+    Rational scaled = term.coefficient;
+    if (exponent_ >= 0)
+      mpq_div_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), exponent_);
+    else
+      mpq_mul_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), -static_cast<long>(exponent_));
+    const double c = scaled.get_d();
+    coefficients_[index] = c;
+    magnitudes_[index] = std::fabs(c) * (1 + 0x1p-51);
+  }
+}
+
+template <int D>
+template <class Number>
+std::vector<Number> FilteredPolynomial<D>::coefficients(int bits) const {
+  if constexpr (std::is_same_v<Number, double>) {
+    return coefficients_;
+  } else {
+    std::lock_guard lock(cache_->mutex);
+    auto [entry, is_new] = cache_->by_bits.try_emplace(bits);
+    if (is_new) {
+      entry->second.assign(coefficients_.size(), Mpfr(bits));
+      for (const auto& term : exact_.terms()) {
+        std::size_t index = 0;
+        for (int i = 0; i < D; ++i) index = index * (degree_ + 1) + term.exponent[i];
+        assign(entry->second[index], term.coefficient);
+        mpfr_mul_2si(entry->second[index].get(), entry->second[index].get(),
+                     -static_cast<long>(exponent_), MPFR_RNDN);
+      }
+    }
+    return entry->second;
+  }
+}
+
+template <int D>
+double FilteredPolynomial<D>::absolute(const Point<D>& magnitude) const {
+  // Horner in every variable, all terms non-negative: relative error at most gamma of the depth.
+  thread_local std::vector<double> level;
+  level = magnitudes_;
+  std::size_t size = level.size();
+  const int n = degree_ + 1;
+  for (int axis = D - 1; axis >= 0; --axis) {
+    const double x = magnitude[axis];
+    size /= n;
+    for (std::size_t i = 0; i < size; ++i) {
+      double sum = 0;
+      for (int k = n - 1; k >= 0; --k) sum = sum * x + level[i * n + k];
+      level[i] = sum;
+    }
+  }
+  return level[0] * 1.0000001;
+}
+
+template <int D>
+void FilteredPolynomial<D>::expand(const Box<D>& box, int net_degree, int bits, Kernel& kernel,
+                                   Bernstein<D>* net) const {
+  ++kernel.expansions;
+  Point<D> center, half, reach;
+  for (int i = 0; i < D; ++i) {
+    center[i] = box.lo[i] + 0.5 * (box.hi[i] - box.lo[i]);
+    // The larger of the two exact differences, rounded up unless they are exact and equal.
+    const double below = center[i] - box.lo[i], above = box.hi[i] - center[i];
+    half[i] = std::max(below, above);
+    const bool exact =
+        below == above && center[i] - below == box.lo[i] && center[i] + above == box.hi[i];
+    if (!exact) half[i] = half[i] * (1 + 0x1p-50) + std::fabs(center[i]) * 0x1p-51;
+    reach[i] = (std::fabs(center[i]) + half[i]) * (1 + 0x1p-50);
+  }
+  const int n = degree_ + 1;
+  const int roundings = kCoefficientRoundings + D * 4 * degree_;
+  const auto run = [&]<class Number>(std::vector<Number> c) {
+    // The lines of the dense array along each axis; exponents of the others bound the length.
+    std::size_t stride = c.size();
+    for (int axis = 0; axis < D; ++axis) {
+      stride /= n;
+      Number origin = make_number<Number>(bits), direction = make_number<Number>(bits);
+      assign(origin, center[axis]);
+      assign(direction, half[axis]);
+      for (std::size_t first = 0; first < c.size(); ++first) {
+        if ((first / stride) % n != 0) continue;
+        int used = 0;
+        for (std::size_t rest = first; rest > 0; rest /= n) used += static_cast<int>(rest % n);
+        if (used < degree_)
+          shift_and_scale(&c[first], n - used, static_cast<int>(stride), origin, direction,
+                          make_number<Number>(bits));
+      }
+    }
+    double error = gamma(roundings, bits) * absolute(reach);
+    if constexpr (std::is_same_v<Number, double>) error += underflow<D>(reach, degree_);
+    const std::vector<double> taylor = round_all(c, &error);
+    to_bernstein<D>(taylor, degree_, error, net_degree, net);
+  };
+  if (bits <= Kernel::kDoubleBits) {
+    run(coefficients<double>(bits));
+  } else {
+    ++kernel.mpfr_expansions;
+    run(coefficients<Mpfr>(bits));
+  }
+}
+
+SegmentChart SegmentChart::of_line(const Line& line, double lo, double hi) {
+  SegmentChart chart;
+  chart.line_ = line;
+  chart.on_line_ = true;
+  chart.lo_ = lo;
+  chart.hi_ = hi;
+  return chart;
+}
+
+SegmentChart SegmentChart::between(const Point<2>& from, const Point<2>& to) {
+  SegmentChart chart;
+  chart.from_ = from;
+  chart.to_ = to;
+  return chart;
+}
+
+namespace {
+
+constexpr int kChartRoundings = 9;  // of the coordinates of a chart's origin and direction
+
+/// r = a line's coefficient (0, 1: normal, 2: offset); at most two roundings.
+template <class Number>
+void line_coefficient(const Line& line, int i, Number& r) {
+  if constexpr (!std::is_same_v<Number, double>) {
+    if (line.rational) {
+      assign(r, (*line.rational)[i]);
+      return;
+    }
+  }
+  assign(r, i < 2 ? line.normal[i] : line.offset);
+}
+
+}  // namespace
+
+SegmentChart SegmentChart::part(double lo, double hi) const {
+  SegmentChart chart = *this;
+  chart.lo_ = lo;
+  chart.hi_ = hi;
+  return chart;
+}
+
+template <class Number>
+void SegmentChart::origin_and_direction(std::array<Number, 2>* origin,
+                                        std::array<Number, 2>* direction) const {
+  // The parameter p = m + h s.
+  const double m = lo_ + 0.5 * (hi_ - lo_);
+  double h = std::max(m - lo_, hi_ - m);
+  if (!(m - h == lo_ && m + h == hi_)) h = h * (1 + 0x1p-50) + std::fabs(m) * 0x1p-51;
+  Number half = (*origin)[0];
+  if (!on_line_) {
+    // (from + to) / 2 + (to - from) / 2 (m + h s)
+    Number middle = half, reach = half;
+    assign(half, 0.5);
+    assign(middle, m);
+    assign(reach, h);
+    for (int i = 0; i < 2; ++i) {
+      Number from = half, to = half;
+      assign(from, from_[i]);
+      assign(to, to_[i]);
+      (*origin)[i] = from;
+      add((*origin)[i], to);
+      multiply((*origin)[i], half);
+      negate(from);
+      add(to, from);
+      multiply(to, half);
+      add_product((*origin)[i], to, middle);
+      multiply(to, reach);
+      (*direction)[i] = to;
+    }
+    return;
+  }
+  // The other coordinate is -(a p + c) / b.
+  const int p = parameter_axis(line_), q = 1 - p;
+  assign((*origin)[p], m);
+  assign((*direction)[p], h);
+  Number a = half, b = half, c = half;
+  line_coefficient(line_, p, a);
+  line_coefficient(line_, q, b);
+  line_coefficient(line_, 2, c);
+  negate(b);
+  add_product(c, a, (*origin)[p]);
+  divide(c, b);
+  (*origin)[q] = c;
+  multiply(a, (*direction)[p]);
+  divide(a, b);
+  (*direction)[q] = a;
+}
+
+template <int D>
+void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, Kernel& kernel,
+                                        Bernstein<1>* net) const requires(D == 2) {
+  ++kernel.restrictions;
+  // Sums of absolute values of the terms that make up a coordinate on the chart.
+  Point<2> reach;
+  if (segment.on_line_) {
+    const Line& line = segment.line_;
+    const int p = parameter_axis(line), q = 1 - p;
+    reach[p] = std::max(std::fabs(segment.lo_), std::fabs(segment.hi_)) * (1 + 0x1p-40) +
+               (segment.hi_ - segment.lo_);
+    reach[q] = (std::fabs(line.normal[p]) * reach[p] + std::fabs(line.offset)) /
+               std::fabs(line.normal[q]) * (1 + 0x1p-40);
+  } else {
+    for (int i = 0; i < 2; ++i)
+      reach[i] = 2 * (std::fabs(segment.from_[i]) + std::fabs(segment.to_[i])) * (1 + 0x1p-40);
+  }
+  const int n = degree_ + 1;
+  // Coefficient, Taylor shift of a row, Horner over the rows (a product and two sums each), and the
+  // roundings of each of at most degree_ coordinate factors.
+  const int roundings = kCoefficientRoundings + (4 + 3 + kChartRoundings) * degree_ + 2;
+  const auto run = [&]<class Number>(std::vector<Number> c) {
+    const Number zero = make_number<Number>(bits);
+    std::array<Number, 2> origin{zero, zero}, direction{zero, zero};
+    segment.origin_and_direction(&origin, &direction);
+    // Row j: the coefficient of y^j, gathered as a polynomial in x, then in s.
+    std::vector<Number> total(n, zero), row(n, zero);
+    for (int j = degree_; j >= 0; --j) {
+      const int length = n - j;
+      for (int i = 0; i < length; ++i) row[i] = c[static_cast<std::size_t>(i) * n + j];
+      shift_and_scale(row.data(), length, 1, origin[0], direction[0], zero);
+      // total (degree < length - 1 so far) times (origin_y + direction_y s), plus the row.
+      for (int k = length - 1; k >= 0; --k) {
+        if (k < length - 1) multiply(total[k], origin[1]);
+        if (k > 0) add_product(total[k], direction[1], total[k - 1]);
+        add(total[k], row[k]);
+      }
+    }
+    double error = gamma(roundings, bits) * absolute(reach);
+    if constexpr (std::is_same_v<Number, double>) error += underflow<2>(reach, degree_);
+    const std::vector<double> taylor = round_all(total, &error);
+    to_bernstein<1>(taylor, degree_, error, degree_, net);
+  };
+  if (bits <= Kernel::kDoubleBits) {
+    run(coefficients<double>(bits));
+  } else {
+    ++kernel.mpfr_expansions;
+    run(coefficients<Mpfr>(bits));
+  }
+}
+
+template <int D>
+template <class Number, class Coordinate>
+double FilteredPolynomial<D>::horner(const std::array<Coordinate, D>& point, int bits) const {
+  const int n = degree_ + 1;
+  std::vector<Number> level = coefficients<Number>(bits);
+  std::size_t size = level.size();
+  Number x = make_number<Number>(bits), sum = x;
+  for (int axis = D - 1; axis >= 0; --axis) {
+    assign(x, point[axis]);
+    size /= n;
+    for (std::size_t i = 0; i < size; ++i) {
+      // Entry i belongs to exponents of the earlier variables, which bound the degree in this one.
+      int used = 0;
+      for (std::size_t rest = i; rest > 0; rest /= n) used += static_cast<int>(rest % n);
+      if (used > degree_) continue;
+      sum = level[i * n + (degree_ - used)];
+      for (int k = degree_ - used - 1; k >= 0; --k) {
+        multiply(sum, x);
+        add(sum, level[i * n + k]);
+      }
+      level[i] = sum;
+    }
+  }
+  return to_double(level[0]);
+}
+
+template <int D>
+typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::with_error(double value,
+                                                                        const Point<D>& magnitude,
+                                                                        int roundings,
+                                                                        int bits) const {
+  double error = gamma(roundings, bits) * absolute(magnitude) + std::fabs(value) * 0x1p-52;
+  error += bits <= Kernel::kDoubleBits ? underflow<D>(magnitude, degree_) : 0x1p-1040;
+  if (!std::isfinite(value) || std::isnan(error))
+    return {0.0, std::numeric_limits<double>::infinity()};
+  return {value, error * (1 + 0x1p-40)};
+}
+
+template <int D>
+typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::evaluate(const Point<D>& point,
+                                                                      int bits) const {
+  Point<D> magnitude;
+  for (int i = 0; i < D; ++i) magnitude[i] = std::fabs(point[i]);
+  const double value =
+      bits <= Kernel::kDoubleBits ? horner<double>(point, bits) : horner<Mpfr>(point, bits);
+  return with_error(value, magnitude, kCoefficientRoundings + 2 * D * degree_ + D, bits);
+}
+
+template <int D>
+Point<D> FilteredPolynomial<D>::gradient(const Point<D>& point) const {
+  // Forward differentiation through Horner's rule: every level carries the value and D derivatives.
+  struct Jet {
+    double value = 0;
+    Point<D> derivative{};
+  };
+  const int n = degree_ + 1;
+  std::size_t size = coefficients_.size();
+  thread_local std::vector<Jet> level;
+  level.assign(size / n, Jet{});
+  for (int axis = D - 1; axis >= 0; --axis) {
+    const double x = point[axis];
+    size /= n;
+    for (std::size_t i = 0; i < size; ++i) {
+      Jet sum;
+      for (int k = degree_; k >= 0; --k) {
+        Jet term;
+        if (axis == D - 1)
+          term.value = coefficients_[i * n + k];
+        else
+          term = level[i * n + k];
+        for (int d = 0; d < D; ++d) sum.derivative[d] = sum.derivative[d] * x + term.derivative[d];
+        sum.derivative[axis] += sum.value;
+        sum.value = sum.value * x + term.value;
+      }
+      level[i] = sum;
+    }
+  }
+  return level[0].derivative;
+}
+
+template <int D>
+Sign FilteredPolynomial<D>::sign_at(const RationalPoint<D>& point, Kernel& kernel) const {
+  Point<D> magnitude;
+  for (int i = 0; i < D; ++i) {
+    magnitude[i] = std::fabs(point[i].get_d()) * (1 + 0x1p-50);
+    // Below the range of doubles a conversion may lose more than an ulp.
+    if (magnitude[i] < 0x1p-900) magnitude[i] = 0x1p-900;
+  }
+  // Every factor of a coordinate brings the (at most two) roundings of its conversion along.
+  const int roundings = kCoefficientRoundings + 4 * D * degree_ + D;
+  for (int bits = kernel.start_bits; bits > 0; bits = kernel.next(bits)) {
+    const double value =
+        bits <= Kernel::kDoubleBits ? horner<double>(point, bits) : horner<Mpfr>(point, bits);
+    const Value v = with_error(value, magnitude, roundings, bits);
+    if (std::fabs(v.value) > v.error) {
+      kernel.count(bits);
+      return v.value > 0 ? Sign::Positive : Sign::Negative;
+    }
+  }
+  ++kernel.decisions.by_exact;
+  return sign_of(sgn(exact_(point)));
+}
+
+template class FilteredPolynomial<1>;
+template class FilteredPolynomial<2>;
+template class FilteredPolynomial<3>;
+
+}  // namespace encase

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "common/isolate_roots.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace encase {
+namespace {
+
+double ulp(double x) {
+  x = std::fabs(x);
+  return std::nextafter(x, HUGE_VAL) - x;
+}
+
+/// A zero near a box: a point that Newton's iteration on doubles settles on.
+template <int D>
+std::optional<Point<D>> newton(const System<D>& system, Point<D> x, double reach) {
+  const Point<D> start = x;
+  double last_step = HUGE_VAL;
+  for (int step = 0; step < 12; ++step) {
+    // Gaussian elimination with partial pivoting on [J | F].
+    std::array<std::array<double, D + 1>, D> m;
+    for (int i = 0; i < D; ++i) {
+      const Point<D> g = system[i]->gradient(x);
+      for (int j = 0; j < D; ++j) m[i][j] = g[j];
+      m[i][D] = system[i]->evaluate(x, Kernel::kDoubleBits).value;
+    }
+    for (int c = 0; c < D; ++c) {
+      int pivot = c;
+      for (int r = c + 1; r < D; ++r)
+        if (std::fabs(m[r][c]) > std::fabs(m[pivot][c])) pivot = r;
+      std::swap(m[c], m[pivot]);
+      if (m[c][c] == 0) return std::nullopt;
+      for (int r = 0; r < D; ++r) {
+        if (r == c) continue;
+        const double factor = m[r][c] / m[c][c];
+        for (int k = c; k <= D; ++k) m[r][k] -= factor * m[c][k];
+      }
+    }
+    double size = 0;
+    for (int i = 0; i < D; ++i) {
+      const double d = m[i][D] / m[i][i];
+      x[i] -= d;
+      size = std::max(size, std::fabs(d));
+      if (!(std::fabs(x[i] - start[i]) <= reach)) return std::nullopt;
+    }
+    if (size == 0 || (step > 3 && size >= 0.5 * last_step)) break;
+    last_step = size;
+  }
+  return x;
+}
+
+/// The box around one zero near x, by Krawczyk's test within `around`, whose contraction is known.
+///
+/// With R = radius in local coordinates, |Y F(x)| + E R < R in every coordinate proves a zero in
+/// x +- R, if x +- R lies in `around`: the Krawczyk operator maps that box into its interior.
+template <int D>
+std::optional<Box<D>> enclose_root(const System<D>& system, const Box<D>& around,
+                                   const Contraction<D>& c, Point<D> x, Kernel& kernel) {
+  constexpr double kUp = 1 + 0x1p-40;
+  std::optional<Box<D>> best;
+  double best_width = HUGE_VAL;
+  for (int bits = kernel.start_bits; bits > 0; bits = kernel.next(bits)) {
+    for (int step = 0; step < 6; ++step) {
+      std::array<double, D> correction{}, residual{};
+      for (int i = 0; i < D; ++i) {
+        const auto v = system[i]->evaluate(x, bits);
+        for (int k = 0; k < D; ++k) {
+          const double y = c.preconditioner[k][i];
+          correction[k] += y * v.value;
+          residual[k] += std::fabs(y) * v.error + 0x1p-50 * std::fabs(y * v.value);
+        }
+      }
+      for (int k = 0; k < D; ++k) residual[k] = (residual[k] + std::fabs(correction[k])) * kUp;
+      // The smallest multiple t of the weights v that E v < v makes a Krawczyk radius, doubled
+      // twice to leave a checker room, and no less than some ulps.
+      double t = 0;
+      for (int k = 0; k < D; ++k) {
+        double image = 0;
+        for (int j = 0; j < D; ++j) image += c.bound[k][j] * c.weights[j];
+        t = std::max(t, residual[k] / (c.weights[k] - image * kUp));
+      }
+      Box<D> box;
+      std::array<double, D> radius;
+      bool inside = std::isfinite(t);
+      double relative_width = 0;
+      for (int k = 0; k < D && inside; ++k) {
+        const double half = 0.5 * around.width(k);
+        // A power of two, so that x is exactly the centre.
+        const double least = std::max(8 * ulp(x[k]), 4 * t * c.weights[k] * half * kUp);
+        int e;
+        std::frexp(least, &e);
+        const double r = std::ldexp(1.0, e);
+        box.lo[k] = x[k] - r;
+        box.hi[k] = x[k] + r;
+        inside = around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k];
+        // What is proved must hold for a box inside the rounded one.
+        radius[k] = (r - 2 * ulp(x[k])) / half * (1 - 0x1p-40);
+        relative_width = std::max(relative_width, r / half);
+      }
+      if (inside) {
+        bool proved = true;
+        for (int k = 0; k < D; ++k) {
+          double image = residual[k];
+          for (int j = 0; j < D; ++j) image += c.bound[k][j] * radius[j];
+          proved = proved && image * kUp < radius[k];
+        }
+        if (proved && relative_width < best_width) {
+          best = box;
+          best_width = relative_width;
+        }
+      }
+      // A Newton step with the preconditioner, as long as it moves the point.
+      bool moved = false;
+      for (int k = 0; k < D; ++k) {
+        const double next = x[k] - correction[k] * 0.5 * around.width(k);
+        moved = moved || std::fabs(next - x[k]) > 2 * ulp(x[k]);
+        x[k] = next;
+      }
+      if (!moved) break;
+      for (int k = 0; k < D; ++k)
+        if (!(around.lo[k] < x[k] && x[k] < around.hi[k])) return best;
+    }
+    if (best) {
+      double wide = 0;
+      for (int k = 0; k < D; ++k) wide = std::max(wide, best->width(k) / (32 * ulp(best->hi[k])));
+      if (wide <= 1) break;
+    }
+    if (bits >= 4 * Kernel::kDoubleBits) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+template <int D>
+RootIsolation<D> isolate_roots(const System<D>& system, const Box<D>& box,
+                               const std::vector<Hyperplane<D>>& half_spaces,
+                               const SubdivisionLimits& limits, Kernel& kernel) {
+  RootIsolation<D> result;
+  result.root_box = subdivision_root(box);
+  int degree = 0;
+  for (const auto* f : system) degree = std::max(degree, f->degree());
+  SystemNets<D> around_nets;
+
+  // The token of the root that a box with a contraction can contain, if there is one near.
+  const auto root_near = [&](const Box<D>& leaf, const Contraction<D>& c) -> std::optional<int> {
+    const auto x = newton<D>(system, leaf.center(), 2 * leaf.largest_width());
+    if (!x) return std::nullopt;
+    double offset = 0;
+    for (int i = 0; i < D; ++i)
+      offset = std::max(offset, std::fabs((*x)[i] - leaf.center()[i]) / (0.5 * leaf.width(i)));
+    if (!(offset < 1.7)) return std::nullopt;
+    Box<D> around = leaf;
+    const Contraction<D>* valid = &c;
+    std::optional<Contraction<D>> wider;
+    if (offset > 0.95) {
+      // The zero is at the border or outside: argue on a box that has it well inside.
+      for (int i = 0; i < D; ++i) {
+        around.lo[i] = leaf.lo[i] - 0.5 * leaf.width(i);
+        around.hi[i] = leaf.hi[i] + 0.5 * leaf.width(i);
+      }
+      for (int i = 0; i < D; ++i)
+        system[i]->expand(around, degree, kernel.start_bits, kernel, &around_nets[i]);
+      wider = contraction<D>(around_nets);
+      if (!wider) return std::nullopt;
+      valid = &*wider;
+    }
+    const auto root = enclose_root<D>(system, around, *valid, *x, kernel);
+    if (!root) return std::nullopt;
+    for (std::size_t k = 0; k < result.roots.size(); ++k) {
+      if (!result.roots[k].meets(*root)) continue;
+      // Both boxes hold a zero and `around` at most one: the same.
+      if (around.contains(result.roots[k])) return static_cast<int>(k);
+      return std::nullopt;
+    }
+    result.roots.push_back(*root);
+    return static_cast<int>(result.roots.size()) - 1;
+  };
+
+  const auto visit = [&](const SystemNets<D>& nets, const Box<D>& leaf) {
+    if (excluded<D>(nets)) {
+      ++kernel.decisions.by_double;
+      return cover::kExcluded;
+    }
+    if (const auto c = contraction<D>(nets))
+      if (const auto k = root_near(leaf, *c)) return *k;
+    int axis = 0;
+    double most = -1;
+    for (int i = 0; i < D; ++i) {
+      double change = 0;
+      for (const auto& net : nets)
+        change += variation(net, i) / (largest_coefficient(net) + 1e-300);
+      if (change > most) {
+        most = change;
+        axis = i;
+      }
+    }
+    return cover::kSplitX - axis;
+  };
+
+  const Subdivision<D> tree =
+      subdivide<D, D>(system, result.root_box, half_spaces, limits, kernel, visit);
+  result.boxes = tree.size();
+  result.tokens = tree.tokens();
+  result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
+  return result;
+}
+
+template RootIsolation<2> isolate_roots<2>(const System<2>&, const Box<2>&,
+                                           const std::vector<Hyperplane<2>>&,
+                                           const SubdivisionLimits&, Kernel&);
+template RootIsolation<3> isolate_roots<3>(const System<3>&, const Box<3>&,
+                                           const std::vector<Hyperplane<3>>&,
+                                           const SubdivisionLimits&, Kernel&);
+
+}  // namespace encase

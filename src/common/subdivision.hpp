@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "common/filtered_polynomial.hpp"
+#include "common/interval.hpp"
+#include "encase/cover.hpp"
+#include "encase/geometry.hpp"
+
+namespace encase {
+
+/// A binary subdivision of a box, the quadtree's and octree's common form: every inner node halves
+/// its box across one axis.
+template <int D>
+class Subdivision {
+ public:
+  explicit Subdivision(const Box<D>& root) : root_(root), nodes_(1) {}
+
+  const Box<D>& root() const { return root_; }
+  /// Makes `node` a leaf.
+  void settle(int node, int token) { nodes_[node].token = token; }
+  /// Halves `node`; its children are first and first + 1, lower half first.
+  int split(int node, int axis) {
+    const int first = static_cast<int>(nodes_.size());
+    nodes_[node].token = cover::kSplitX - axis;
+    nodes_[node].first_child = first;
+    nodes_.resize(nodes_.size() + 2);
+    return first;
+  }
+  int size() const { return static_cast<int>(nodes_.size()); }
+
+  /// The tokens in preorder (encase/cover.hpp).
+  std::vector<int> tokens() const {
+    std::vector<int> result, stack{0};
+    result.reserve(nodes_.size());
+    while (!stack.empty()) {
+      const Node& node = nodes_[stack.back()];
+      stack.pop_back();
+      result.push_back(node.token);
+      if (node.first_child >= 0) {
+        stack.push_back(node.first_child + 1);
+        stack.push_back(node.first_child);
+      }
+    }
+    return result;
+  }
+
+ private:
+  struct Node {
+    int token = cover::kUnresolved;
+    int first_child = -1;
+  };
+  Box<D> root_;
+  std::vector<Node> nodes_;
+};
+
+/// The halves of a box; false unless the cut is exact in doubles and strictly inside.
+template <int D>
+bool halve_box(const Box<D>& box, int axis, Box<D>* lower, Box<D>* upper) {
+  const double lo = box.lo[axis], hi = box.hi[axis], middle = lo + 0.5 * (hi - lo);
+  const double below = middle - lo, above = hi - middle;
+  if (!(below == above && below > 0 && middle - below == lo && middle + above == hi)) return false;
+  *lower = *upper = box;
+  lower->hi[axis] = upper->lo[axis] = middle;
+  return true;
+}
+
+/// A box around `box`, at most some percent larger and not symmetric to it, whose repeated halves
+/// are exact in doubles. (Symmetric input likes to put its features on the cuts of a symmetric
+/// box.)
+template <int D>
+Box<D> subdivision_root(const Box<D>& box) {
+  Box<D> root = box;
+  for (int i = 0; i < D; ++i) {
+    int e;
+    std::frexp(box.hi[i] - box.lo[i], &e);
+    const double unit = std::ldexp(1.0, e - 7);
+    root.lo[i] = (std::floor(box.lo[i] / unit) - 1) * unit;
+    root.hi[i] = (std::ceil(box.hi[i] / unit) + 2) * unit;
+  }
+  return root;
+}
+
+struct SubdivisionLimits {
+  int max_boxes = 200000;
+  double smallest = 0x1p-40;  ///< boxes are halved down to this part of the root's widths
+};
+
+/// The boxes a subdivision visits, breadth first, with the nets of N polynomials on each.
+///
+/// `visit(nets, box)` returns a token that settles the box, or one of the split tokens. Boxes
+/// outside one of the half spaces (positive side) are settled as kOutside, and boxes that would
+/// have to be split beyond the limits as kUnresolved. A net whose radius has become a noticeable
+/// part of it is expanded anew around its box, in doubles, then in MPFR.
+template <int D, int N, class Visit>
+Subdivision<D> subdivide(const std::array<const FilteredPolynomial<D>*, N>& polynomials,
+                         const Box<D>& root, const std::vector<Hyperplane<D>>& half_spaces,
+                         const SubdivisionLimits& limits, Kernel& kernel, Visit visit) {
+  struct Item {
+    int node;
+    Box<D> box;
+    std::array<Bernstein<D>, N> nets;
+    std::array<int, N> bits;
+  };
+  int degree = 0;
+  for (const auto* f : polynomials) degree = std::max(degree, f->degree());
+
+  const auto outside = [&](const Box<D>& box) {
+    for (const Hyperplane<D>& plane : half_spaces) {
+      Interval value = plane.offset;
+      for (int i = 0; i < D; ++i)
+        value = value +
+                Interval(plane.normal[i]) * Interval(plane.normal[i] < 0 ? box.hi[i] : box.lo[i]);
+      // Rational coefficients are within an ulp of the doubles.
+      double slack = 0;
+      if (plane.rational) {
+        slack = std::fabs(plane.offset);
+        for (int i = 0; i < D; ++i)
+          slack +=
+              std::fabs(plane.normal[i]) * std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));
+        slack *= 0x1p-49;
+      }
+      if (value.lo > slack) return true;
+    }
+    return false;
+  };
+  const auto sharpen = [&](Item& item) {
+    for (int i = 0; i < N; ++i) {
+      Bernstein<D>& net = item.nets[i];
+      const auto coarse = [&] { return !(net.radius < 0x1p-10 * largest_coefficient(net)); };
+      if (!coarse()) continue;
+      for (int bits = item.bits[i]; bits > 0 && coarse(); bits = kernel.next(bits)) {
+        const double before = net.radius;
+        polynomials[i]->expand(item.box, degree, bits, kernel, &net);
+        const bool gained = net.radius < 0.5 * before;
+        if (bits > Kernel::kDoubleBits && bits > item.bits[i] && !gained) break;
+        item.bits[i] = bits;
+      }
+    }
+  };
+
+  Subdivision<D> tree(root);
+  std::vector<Item> level(1), next, pool;
+  level[0].node = 0;
+  level[0].box = root;
+  level[0].bits.fill(kernel.start_bits);
+  for (int i = 0; i < N; ++i)
+    polynomials[i]->expand(root, degree, kernel.start_bits, kernel, &level[0].nets[i]);
+  int boxes = 0;
+  while (!level.empty()) {
+    for (Item& item : level) {
+      int token = cover::kOutside;
+      ++boxes;
+      if (!outside(item.box)) {
+        sharpen(item);
+        token = visit(item.nets, item.box);
+      }
+      const bool split = token <= cover::kSplitX && token >= cover::kSplitZ;
+      const int axis = cover::kSplitX - token;
+      Item lower, upper;
+      if (split && boxes + static_cast<int>(next.size()) < limits.max_boxes &&
+          item.box.width(axis) > limits.smallest * root.width(axis) &&
+          halve_box(item.box, axis, &lower.box, &upper.box)) {
+        if (!pool.empty()) {
+          lower.nets = std::move(pool.back().nets);
+          pool.pop_back();
+        }
+        for (int i = 0; i < N; ++i) halve(item.nets[i], axis, &lower.nets[i], &upper.nets[i]);
+        lower.bits = upper.bits = item.bits;
+        lower.node = tree.split(item.node, axis);
+        upper.node = lower.node + 1;
+        next.push_back(std::move(lower));
+        next.push_back(std::move(upper));
+      } else {
+        tree.settle(item.node, split ? cover::kUnresolved : token);
+      }
+    }
+    pool = std::move(level);
+    level = std::move(next);
+    next.clear();
+  }
+  return tree;
+}
+
+/// The boxes of a subdivision's leaves that carry one token, in preorder.
+template <int D>
+std::vector<Box<D>> leaves(const Box<D>& root, const std::vector<int>& tokens, int token) {
+  std::vector<Box<D>> result, stack{root};
+  for (const int t : tokens) {
+    const Box<D> box = stack.back();
+    stack.pop_back();
+    if (t <= cover::kSplitX && t >= cover::kSplitZ) {
+      Box<D> lower, upper;
+      halve_box(box, cover::kSplitX - t, &lower, &upper);
+      stack.push_back(upper);
+      stack.push_back(lower);
+    } else if (t == token) {
+      result.push_back(box);
+    }
+  }
+  return result;
+}
+
+}  // namespace encase
