@@ -1,0 +1,444 @@
+# SPDX-License-Identifier: MIT
+"""Tests of the command `encase` as a person meets it: messages, exit codes, files.
+
+Usage: command_test.py PATH_TO_ENCASE [unittest arguments]
+"""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ENCASE = None
+
+CIRCLE_AND_CUBIC = "circle: x^2 + y^2 - 1\ncubic: y = x^3\n"
+
+
+def encase(*arguments, stdin="", timeout=120):
+    return subprocess.run([ENCASE, *arguments], input=stdin, capture_output=True, text=True,
+                          timeout=timeout)
+
+
+class CommandTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name, text=None):
+        path = os.path.join(self.folder.name, name)
+        if text is not None:
+            with open(path, "w") as file:
+                file.write(text)
+        return path
+
+    def refused(self, run, code, *patterns):
+        """One message on standard error that says `patterns`, nothing on standard output."""
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertEqual(run.stdout, "")
+        self.assertTrue(run.stderr.startswith("encase: "), run.stderr)
+        for pattern in patterns:
+            self.assertRegex(run.stderr, pattern)
+
+    def encased(self, run, *codes):
+        self.assertIn(run.returncode, codes, run.stderr + run.stdout)
+        self.assertEqual(run.stderr, "")
+
+
+class Usage(CommandTest):
+    def test_help_names_every_subcommand_and_the_exit_codes(self):
+        run = encase("--help")
+        self.encased(run, 0)
+        for word in ("curves", "check", "random", "Exit codes"):
+            self.assertIn(word, run.stdout)
+
+    def test_help_of_curves_names_every_option(self):
+        run = encase("curves", "--help")
+        self.encased(run, 0)
+        for option in ("-e", "--region", "--json", "--svg", "--mesh", "-o", "--history",
+                       "--summary", "--relaxed", "--perturb", "--seed", "--max-cells",
+                       "--max-seconds", "--max-bits", "--start-bits", "--threads", "-q", "-v"):
+            self.assertIn(option, run.stdout)
+
+    def test_version(self):
+        run = encase("--version")
+        self.encased(run, 0)
+        self.assertRegex(run.stdout, r"^encase \d+\.\d+\.\d+\n$")
+
+    def test_no_subcommand(self):
+        self.refused(encase(), 1, "subcommand")
+
+    def test_unknown_option(self):
+        self.refused(encase("curves", "--no-such-option", "-e", "x"), 1, "--no-such-option")
+
+    def test_unknown_subcommand(self):
+        self.refused(encase("teapot"), 1, "teapot|subcommand")
+
+    def test_neither_file_nor_expression(self):
+        self.refused(encase("curves"), 1, "FILE", "-e")
+
+    def test_file_and_expression(self):
+        self.refused(encase("curves", self.path("a.curves", "x\n"), "-e", "y"), 1, "FILE", "-e")
+
+    def test_values_that_are_no_numbers(self):
+        for option in ("--max-cells", "--max-seconds", "--max-bits", "--start-bits", "--threads",
+                       "--perturb", "--seed"):
+            with self.subTest(option):
+                self.refused(encase("curves", "-e", "x", option, "many"), 1, option)
+
+    def test_values_out_of_range(self):
+        for option, value in (("--max-cells", "0"), ("--max-seconds", "-1"), ("--max-bits", "12"),
+                              ("--start-bits", "1"), ("--threads", "0"), ("--perturb", "0"),
+                              ("--perturb", "nan"), ("--max-seconds", "nan"),
+                              ("--perturb", "inf"), ("--perturb", "2")):
+            with self.subTest(option):
+                self.refused(encase("curves", "-e", "x", "--region", "-1 1 -1 1", option, value),
+                             1, option)
+
+    def test_start_bits_above_max_bits(self):
+        self.refused(encase("curves", "-e", "x", "--region", "-1 1 -1 1", "--start-bits", "500",
+                            "--max-bits", "200"), 1, "--start-bits", "--max-bits")
+
+    def test_history_needs_vtk_files(self):
+        self.refused(encase("curves", "-e", "x", "--region", "-1 1 -1 1", "--history"), 1, "-o")
+
+    def test_two_outputs_on_standard_output(self):
+        region = ("-e", "x", "--region", "-1 1 -1 1")
+        for outputs in (("--json", "-", "--svg", "-"), ("--summary", "--json", "-")):
+            self.refused(encase("curves", *region, *outputs), 1, "standard output")
+
+    def test_mesh_of_unknown_format(self):
+        run = encase("curves", "-e", "x", "--region", "-1 1 -1 1", "--mesh", self.path("a.stl"))
+        self.refused(run, 1, r"\.stl|OpenMesh", r"\.om")
+
+
+class BadInput(CommandTest):
+    REGION = "region: -2 2 -2 2\n"
+
+    def of_text(self, text):
+        return encase("curves", self.path("input.curves", text))
+
+    def test_empty_file(self):
+        self.refused(self.of_text(""), 1, "input.curves", "no curve")
+
+    def test_unbalanced_parenthesis(self):
+        run = self.of_text(self.REGION + "c: (x + y\n")
+        self.refused(run, 1, r"input\.curves:2:\d+", r"\)", r"\n.*\^")
+
+    def test_closing_parenthesis_too_many(self):
+        run = self.of_text(self.REGION + "c: x + y)\n")
+        self.refused(run, 1, r"input\.curves:2:9", r"\n.*\^")
+
+    def test_unknown_variable(self):
+        self.refused(self.of_text(self.REGION + "x + w\n"), 1, r"input\.curves:2:5", "w")
+
+    def test_zero_polynomial(self):
+        self.refused(self.of_text(self.REGION + "nothing: x - x\n"), 1, "nothing", "zero")
+
+    def test_constant(self):
+        self.refused(self.of_text(self.REGION + "one: 1\n"), 1, "one", "constant")
+
+    def test_root_of_a_variable(self):
+        self.refused(self.of_text(self.REGION + "y - x^(1/2)\n"), 1, r"input\.curves:2:\d+",
+                     "exponent")
+
+    def test_not_a_number(self):
+        self.refused(self.of_text(self.REGION + "x + NaN\n"), 1, r"input\.curves:2:5", "NaN")
+
+    def test_degree_500(self):
+        self.refused(self.of_text(self.REGION + "y - x^500\n"), 1, "degree", "60")
+
+    def test_degree_500_in_a_product(self):
+        self.refused(self.of_text(self.REGION + "(x+y)^50*(x-y)^450\n"), 1, "degree|exponent",
+                     "60")
+
+    def test_huge_exponents_are_refused_at_once(self):
+        start = time.monotonic()
+        self.refused(self.of_text(self.REGION + "x^9999999999999999999\n"), 1)
+        self.refused(self.of_text(self.REGION + "x*2^9999999999\n"), 1)
+        self.refused(self.of_text(self.REGION + "x*1e9999999999\n"), 1)
+        self.refused(self.of_text(self.REGION + "(" * 100000 + "x\n"), 1)
+        self.assertLess(time.monotonic() - start, 10)
+
+    def test_region_of_zero_area(self):
+        self.refused(self.of_text("region: 1 1 0 1\nx\n"), 1, "region")
+        self.refused(self.of_text("region: polygon (0,0) (1,1) (2,2)\nx\n"), 1, "region|polygon")
+
+    def test_polygon_that_is_not_convex(self):
+        self.refused(self.of_text("region: polygon (0,0) (2,0) (1,1/2) (0,2)\nx\n"), 1, "convex")
+
+    def test_no_region(self):
+        self.refused(self.of_text("x\n"), 1, "region: xmin xmax ymin ymax|--region")
+
+    def test_bad_region_option(self):
+        self.refused(encase("curves", "-e", "x", "--region", "1 2 3"), 1, "--region")
+
+    def test_bad_json(self):
+        run = encase("curves", self.path("input.json", '{"region": [0, 1, 0'))
+        self.refused(run, 1, "input.json")
+
+    def test_json_input(self):
+        text = json.dumps({"region": [-2, 2, -2, 2], "curves": [
+            {"name": "circle", "expr": "x^2 + y^2 - 1"},
+            {"name": "cubic", "terms": [[0, 1, "1"], [3, 0, "-1"]]}]})
+        run = encase("curves", self.path("input.json", text), "--summary")
+        self.encased(run, 0)
+        self.assertEqual(json.loads(run.stdout)["crossings"], 2)
+
+
+class Answered(CommandTest):
+    """What is not generic, or large, is answered and not refused."""
+
+    def answered(self, text, *codes):
+        run = encase("curves", "-", "--summary", stdin=text)
+        self.encased(run, *codes)
+        return json.loads(run.stdout)
+
+    def test_coefficients_beyond_doubles(self):
+        summary = self.answered("region: -2 2 -2 2\n1e400*x^2 + 1e400*y^2 - 1e400\ny - x^3\n", 0)
+        self.assertEqual(summary["crossings"], 2)
+
+    def test_coefficients_of_very_different_size(self):
+        self.answered("region: -2 2 -2 2\n1e400*x^2 + y^2 - 1\ny - 1e-400*x^3\n", 0, 3, 4)
+
+    def test_the_same_curve_twice(self):
+        summary = self.answered("region: -2 2 -2 2\nx^2 + y^2 - 1\n2 x^2 + 2 y^2 - 2\n", 3)
+        self.assertEqual(summary["status"], "degenerate")
+
+    def test_a_circle_and_its_tangent(self):
+        self.answered("region: -2 2 -2 2\nx^2 + y^2 - 1\ny - 1\n", 3, 4)
+
+    def test_one_curve_alone(self):
+        self.assertEqual(self.answered("region: -2 2 -2 2\nx^2 + y^2 - 1\n", 0)["crossings"], 0)
+
+    def test_a_curve_outside_the_region(self):
+        self.assertEqual(self.answered("region: 3 4 3 4\nx^2 + y^2 - 1\n", 0)["crossings"], 0)
+
+    def test_curves_through_the_corners(self):
+        summary = self.answered("region: -1 1 -1 1\nx - y\nx + y\n", 0)
+        self.assertEqual(summary["crossings"], 1)
+
+
+class Files(CommandTest):
+    def curves(self):
+        return self.path("input.curves", "region: -2 2 -2 2\n" + CIRCLE_AND_CUBIC)
+
+    def test_missing_file(self):
+        self.refused(encase("curves", self.path("absent.curves")), 2, r"absent\.curves", "No such")
+
+    def test_directory_as_file(self):
+        self.refused(encase("curves", self.folder.name), 2, re.escape(self.folder.name),
+                     "directory")
+
+    def test_output_in_a_missing_directory(self):
+        for option in ("--json", "--svg"):
+            with self.subTest(option):
+                run = encase("curves", self.curves(), option, self.path("absent/result"))
+                self.refused(run, 2, "absent")
+
+    def test_output_onto_a_directory(self):
+        for option in ("--json", "--svg"):
+            with self.subTest(option):
+                run = encase("curves", self.curves(), option, self.folder.name)
+                self.refused(run, 2, "directory")
+
+    def test_output_directory_is_a_file(self):
+        run = encase("curves", self.curves(), "-o", self.path("file", "kept"))
+        self.refused(run, 2 if "Exit" and self.vtk() else 1, "file|VTK")
+        with open(self.path("file")) as file:
+            self.assertEqual(file.read(), "kept")
+
+    def vtk(self):
+        return "VTK" not in encase("curves", self.curves(), "-q", "-o", self.path("probe")).stderr
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
+    def test_full_disk(self):
+        with open("/dev/full", "w") as full:
+            run = subprocess.run([ENCASE, "curves", self.curves(), "--json", "-", "-q"],
+                                 stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(run.returncode, 2)
+        self.assertRegex(run.stderr, "standard output.*[Ss]pace")
+
+    def test_report(self):
+        run = encase("curves", self.curves())
+        self.encased(run, 0)
+        self.assertRegex(run.stdout, r"^certified: 2 curves, 2 crossings in \d+ cells?\n")
+        rows = re.findall(r"^ +\d+  circle & cubic +(\S+) +(\S+) +(\S+) +\d+$", run.stdout, re.M)
+        self.assertEqual(len(rows), 2)
+        for x, y, radius in rows:
+            self.assertAlmostEqual(abs(float(x)), 0.8260313576541869, 15)
+            self.assertAlmostEqual(float(y), float(x) ** 3, 14)
+            self.assertLess(float(radius), 1e-10)
+
+    def test_statistics(self):
+        run = encase("curves", self.curves(), "-v")
+        self.encased(run, 0)
+        for step in ("1. sanity", "2. crossings", "3. critical regions", "4. split",
+                     "5. certify"):
+            self.assertIn(step, run.stdout)
+
+    def test_quiet(self):
+        run = encase("curves", self.curves(), "-q")
+        self.encased(run, 0)
+        self.assertEqual(run.stdout, "")
+
+    def test_expressions_and_region_on_the_command_line(self):
+        run = encase("curves", "-e", "-x^2 - y^2 = -1", "-e", "y = x^3", "--region", "-2 2 -2 2",
+                     "--summary")
+        self.encased(run, 0)
+        summary = json.loads(run.stdout)
+        self.assertEqual(summary["status"], "certified")
+        self.assertEqual((summary["curves"], summary["crossings"]), (2, 2))
+        self.assertEqual(set(summary), {"status", "curves", "crossings", "cells", "relaxed_cells",
+                                        "seconds"})
+
+    def test_region_option_overrides_the_files(self):
+        run = encase("curves", self.curves(), "--region", "polygon (0,0) (2,0) (0,2)", "--summary")
+        self.encased(run, 0)
+        self.assertEqual(json.loads(run.stdout)["crossings"], 1)
+
+    def test_errors_in_expressions_name_the_expression(self):
+        run = encase("curves", "-e", "x", "-e", "x + (", "--region", "-2 2 -2 2")
+        self.refused(run, 1, "-e", r"\n.*\^")
+
+    def test_result_is_the_same_bytes_every_time(self):
+        paths = [self.path("a.json"), self.path("b.json")]
+        for path in paths:
+            self.encased(encase("curves", self.curves(), "-q", "--json", path), 0)
+        with open(paths[0], "rb") as a, open(paths[1], "rb") as b:
+            self.assertEqual(a.read(), b.read())
+
+    def test_perturbation_is_in_the_result(self):
+        run = encase("curves", self.curves(), "--perturb", "1e-6", "--seed", "7", "--json", "-",
+                     "-q")
+        self.encased(run, 0)
+        again = encase("curves", self.curves(), "--perturb", "1e-6", "--seed", "7", "--json", "-",
+                       "-q")
+        other = encase("curves", self.curves(), "--perturb", "1e-6", "--seed", "8", "--json", "-",
+                       "-q")
+        self.assertEqual(run.stdout, again.stdout)
+        self.assertNotEqual(run.stdout, other.stdout)
+        self.assertEqual(json.loads(run.stdout)["input"]["seed"], 7)
+
+    def test_json_on_standard_output_has_it_alone(self):
+        run = encase("curves", self.curves(), "--json", "-")
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(json.loads(run.stdout)["format"], "encase-result")
+        self.assertRegex(run.stderr, "^certified")
+
+    def test_svg(self):
+        path = self.path("a.svg")
+        self.encased(encase("curves", self.curves(), "-q", "--svg", path), 0)
+        with open(path) as file:
+            self.assertIn("<svg", file.read())
+
+    def test_vtk_and_mesh_files_or_the_missing_component(self):
+        for option, path, name in (("-o", self.path("vtk"), "VTK"),
+                                   ("--mesh", self.path("a.om"), "OpenMesh")):
+            run = encase("curves", self.curves(), "-q", option, path)
+            if run.returncode == 0:
+                self.assertTrue(os.path.exists(path))
+            else:
+                self.refused(run, 1, "built without " + name)
+
+    def test_budget_leaves_an_undecided_result(self):
+        path = self.path("a.json")
+        run = encase("curves", self.curves(), "--max-cells", "2", "--json", path)
+        self.encased(run, 4)
+        self.assertIn("undecided", run.stdout)
+        with open(path) as file:
+            self.assertEqual(json.load(file)["status"], "undecided")
+
+
+class Check(CommandTest):
+    def result(self, text="region: -2 2 -2 2\n" + CIRCLE_AND_CUBIC):
+        run = encase("curves", "-", "--json", "-", "-q", stdin=text)
+        return json.loads(run.stdout)
+
+    def checked(self, result):
+        return encase("check", self.path("r.json", json.dumps(result)))
+
+    def test_true_result(self):
+        run = self.checked(self.result())
+        self.encased(run, 0)
+        self.assertRegex(run.stdout, r"^verified: \d+ claims")
+
+    def test_result_on_standard_input(self):
+        self.encased(encase("check", "-", stdin=json.dumps(self.result())), 0)
+
+    def test_degenerate_result(self):
+        run = self.checked(self.result("region: -2 2 -2 2\nx^2 + y^2 - 1\n2x^2 + 2y^2 - 2\n"))
+        self.encased(run, 3)
+
+    def test_changed_curve(self):
+        result = self.result()
+        text = json.dumps(result)
+        self.assertIn('"-1"', text)
+        run = encase("check", self.path("r.json", text.replace('"-1"', '"-3"')))
+        self.assertEqual(run.returncode, 1, run.stdout)
+        self.assertNotEqual(run.stdout, "")
+        self.assertRegex(run.stderr, "^encase: .*not proved: .*objection")
+
+    def test_dropped_crossing(self):
+        result = self.result()
+        result["crossings"].pop()
+        self.assertEqual(self.checked(result).returncode, 1)
+
+    def test_no_json(self):
+        self.refused(encase("check", self.path("r.json", "hello")), 1, "r.json")
+
+    def test_json_of_something_else(self):
+        self.refused(self.checked({"format": "teapot"}), 1, "encase-result|format")
+
+    def test_missing_file(self):
+        self.refused(encase("check", self.path("absent.json")), 2, "absent.json")
+
+
+class Random(CommandTest):
+    def test_curves_can_be_encased(self):
+        for kind in ("interpolating", "dense"):
+            with self.subTest(kind):
+                text = encase("random", "--degree", "4", "--count", "2", "--seed", "5", "--kind",
+                              kind)
+                self.encased(text, 0)
+                run = encase("curves", "-", "--summary", stdin=text.stdout)
+                self.encased(run, 0)
+                self.assertEqual(json.loads(run.stdout)["curves"], 2)
+
+    def test_same_seed_gives_the_same_bytes(self):
+        def draw(seed):
+            return encase("random", "--degree", "3", "--count", "2", "--seed", seed).stdout
+        self.assertEqual(draw("1"), draw("1"))
+        self.assertNotEqual(draw("1"), draw("2"))
+
+    def test_degree_beyond_the_limit(self):
+        self.refused(encase("random", "--degree", "500", "--count", "1", "--seed", "1"), 1,
+                     "degree")
+
+
+class Interrupt(CommandTest):
+    def test_leaves_an_undecided_result_and_a_complete_file(self):
+        text = encase("random", "--degree", "40", "--count", "4", "--seed", "3").stdout
+        path = self.path("r.json")
+        process = subprocess.Popen([ENCASE, "curves", "-", "--json", path, "--max-seconds", "100"],
+                                   stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        process.stdin.write(text)
+        process.stdin.close()
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        code = process.wait(timeout=60)
+        process.stdout.close()
+        process.stderr.close()
+        self.assertEqual(code, 4)
+        with open(path) as file:
+            self.assertEqual(json.load(file)["status"], "undecided")
+
+
+if __name__ == "__main__":
+    ENCASE = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
