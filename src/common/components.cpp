@@ -1,0 +1,522 @@
+// SPDX-License-Identifier: MIT
+#include "components.hpp"
+
+#include <flint/fmpz_mpoly_factor.h>
+#include <flint/fmpz_poly.h>
+#include <flint/nmod_poly.h>
+#include <flint/nmod_poly_factor.h>
+#include <flint/ulong_extras.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "flint_polynomial.hpp"
+
+namespace encase {
+
+namespace {
+
+/// 2^61 - 1.
+constexpr ulong kPrime = (ulong{1} << 61) - 1;
+
+class ModularPoly {
+ public:
+  explicit ModularPoly(ulong prime) { nmod_poly_init(value_, prime); }
+  ~ModularPoly() { nmod_poly_clear(value_); }
+  ModularPoly(const ModularPoly&) = delete;
+  ModularPoly& operator=(const ModularPoly&) = delete;
+  operator nmod_poly_struct*() { return value_; }
+  operator const nmod_poly_struct*() const { return value_; }
+
+ private:
+  nmod_poly_t value_;
+};
+
+class IntegerPoly {
+ public:
+  IntegerPoly() { fmpz_poly_init(value_); }
+  explicit IntegerPoly(const Polynomial<1>& f) : IntegerPoly() { set(f); }
+  IntegerPoly(const IntegerPoly& other) : IntegerPoly() { fmpz_poly_set(value_, other.value_); }
+  IntegerPoly& operator=(const IntegerPoly& other) {
+    fmpz_poly_set(value_, other.value_);
+    return *this;
+  }
+  ~IntegerPoly() { fmpz_poly_clear(value_); }
+  fmpz_poly_struct* operator->() { return value_; }
+  operator fmpz_poly_struct*() { return value_; }
+  operator const fmpz_poly_struct*() const { return value_; }
+
+  /// Takes f times the least common multiple of its denominators.
+  void set(const Polynomial<1>& f) {
+    fmpz_poly_zero(value_);
+    Integer denominator = 1;
+    for (const auto& term : f.terms())
+      mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(),
+              term.coefficient.get_den().get_mpz_t());
+    for (const auto& term : f.terms()) {
+      const Integer scaled =
+          term.coefficient.get_num() * (denominator / term.coefficient.get_den());
+      fmpz_poly_set_coeff_mpz(value_, term.exponent[0], scaled.get_mpz_t());
+    }
+  }
+  Polynomial<1> get() const {
+    std::vector<Polynomial<1>::Term> terms;
+    for (slong k = 0; k < fmpz_poly_length(value_); ++k) {
+      Polynomial<1>::Term term{{static_cast<int>(k)}, 0};
+      fmpz_poly_get_coeff_mpz(term.coefficient.get_num_mpz_t(), value_, k);
+      terms.push_back(std::move(term));
+    }
+    return Polynomial<1>::from_terms(std::move(terms));
+  }
+
+ private:
+  fmpz_poly_t value_;
+};
+
+/// The coefficients modulo the prime, in the order of the terms; nothing if it divides a
+/// denominator.
+std::optional<std::vector<ulong>> reduce(const Polynomial<2>& f, const nmod_t& mod) {
+  const std::size_t n = f.terms().size();
+  // All denominators are inverted at the price of one: inverse[k] = product of those up to k,
+  // first.
+  std::vector<ulong> coefficient(n), denominator(n), product(n + 1, 1);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Rational& c = f.terms()[k].coefficient;
+    coefficient[k] = mpz_fdiv_ui(c.get_num_mpz_t(), mod.n);
+    denominator[k] = c.get_den() == 1 ? 1 : mpz_fdiv_ui(c.get_den_mpz_t(), mod.n);
+    product[k + 1] = nmod_mul(product[k], denominator[k], mod);
+  }
+  if (product[n] == 0) return std::nullopt;
+  ulong inverse = nmod_inv(product[n], mod);
+  for (std::size_t k = n; k-- > 0;) {
+    coefficient[k] = nmod_mul(coefficient[k], nmod_mul(inverse, product[k], mod), mod);
+    inverse = nmod_mul(inverse, denominator[k], mod);
+  }
+  return coefficient;
+}
+
+/// f on the line t -> (3 + 5 t, 7 + u t) modulo kPrime, for a fixed u that no one has reason to
+/// avoid; false if the restriction's degree is less than f's or kPrime divides a denominator.
+bool restrict_to_line(const Polynomial<2>& f, ModularPoly* restriction) {
+  nmod_t mod;
+  nmod_init(&mod, kPrime);
+  const auto coefficient = reduce(f, mod);
+  if (!coefficient) return false;
+  constexpr ulong kSlope = 1234567890123456789;
+  const int degree = f.degree();
+  const std::size_t points = static_cast<std::size_t>(degree) + 1;
+  std::vector<ulong> parameter(points), value(points), x_power(points), y_power(points);
+  for (std::size_t k = 0; k < points; ++k) {
+    const ulong t = parameter[k] = k;
+    const ulong x = nmod_add(3, nmod_mul(5, t, mod), mod);
+    const ulong y = nmod_add(7, nmod_mul(kSlope, t, mod), mod);
+    x_power[0] = y_power[0] = 1;
+    for (std::size_t e = 1; e < points; ++e) {
+      x_power[e] = nmod_mul(x_power[e - 1], x, mod);
+      y_power[e] = nmod_mul(y_power[e - 1], y, mod);
+    }
+    ulong sum = 0;
+    for (std::size_t j = 0; j < f.terms().size(); ++j) {
+      const auto& e = f.terms()[j].exponent;
+      const ulong monomial = nmod_mul(x_power[static_cast<std::size_t>(e[0])],
+                                      y_power[static_cast<std::size_t>(e[1])], mod);
+      sum = nmod_add(sum, nmod_mul((*coefficient)[j], monomial, mod), mod);
+    }
+    value[k] = sum;
+  }
+  nmod_poly_interpolate_nmod_vec(*restriction, parameter.data(), value.data(),
+                                 static_cast<slong>(points));
+  return nmod_poly_degree(*restriction) == degree;
+}
+
+bool coprime(const ModularPoly& r, const ModularPoly& s) {
+  ModularPoly common(kPrime);
+  nmod_poly_gcd(common, r, s);
+  return nmod_poly_degree(common) == 0;
+}
+
+/// FLINT reports failure only for exponents beyond a machine word, far above kMaxDegree.
+void require(int success) {
+  if (!success) throw std::logic_error("FLINT could not compute a greatest common divisor");
+}
+
+using Source = BaseElement<2>::Source;
+
+/// A factor in the making. `input` is the index of the input it equals up to a constant, or -1.
+struct Element {
+  std::unique_ptr<FlintPolynomial<2>> factor;
+  std::vector<Source> sources;
+  int input = -1;
+};
+
+class Refinement {
+ public:
+  /// Adds an input as the product of its square-free parts' powers.
+  void add(int index, const Polynomial<2>& f) {
+    fmpz_mpoly_factor_t parts;
+    fmpz_mpoly_factor_init(parts, context_);
+    FlintPolynomial<2> whole(context_), base(context_);
+    whole.set(f);
+    std::map<slong, std::unique_ptr<FlintPolynomial<2>>> by_multiplicity;
+    require(fmpz_mpoly_factor_squarefree(parts, whole, context_));
+    for (slong k = 0; k < fmpz_mpoly_factor_length(parts, context_); ++k) {
+      const slong multiplicity = fmpz_mpoly_factor_get_exp_si(parts, k, context_);
+      fmpz_mpoly_factor_get_base(base, parts, k, context_);
+      auto& product = by_multiplicity[multiplicity];
+      if (!product) {
+        product = std::make_unique<FlintPolynomial<2>>(context_);
+        fmpz_mpoly_one(*product, context_);
+      }
+      fmpz_mpoly_mul(*product, *product, base, context_);
+    }
+    fmpz_mpoly_factor_clear(parts, context_);
+    for (auto& [multiplicity, product] : by_multiplicity)
+      insert(std::move(product), {index, static_cast<int>(multiplicity)},
+             multiplicity == 1 && by_multiplicity.size() == 1);
+  }
+
+  std::vector<BaseElement<2>> take(const std::vector<Polynomial<2>>& inputs) && {
+    std::vector<BaseElement<2>> base;
+    for (Element& element : elements_)
+      base.push_back({element.input >= 0 ? inputs[static_cast<std::size_t>(element.input)]
+                                         : element.factor->get(1),
+                      std::move(element.sources)});
+    return base;
+  }
+
+ private:
+  /// Splits the elements by a square-free polynomial coprime to all others of its source.
+  /// Invariant: two irreducible factors met so far are in one element exactly if their sources are
+  /// equal.
+  void insert(std::unique_ptr<FlintPolynomial<2>> rest, Source source, bool is_input) {
+    std::vector<Element> refined;
+    for (Element& element : elements_) {
+      auto common = std::make_unique<FlintPolynomial<2>>(context_);
+      require(fmpz_mpoly_gcd(*common, *element.factor, *rest, context_));
+      if (fmpz_mpoly_is_fmpz(*common, context_)) {
+        refined.push_back(std::move(element));
+        continue;
+      }
+      FlintPolynomial<2> remaining(context_);
+      fmpz_mpoly_divides(remaining, *rest, *common, context_);
+      const bool rest_divides = fmpz_mpoly_is_fmpz(remaining, context_);
+      fmpz_mpoly_swap(*rest, remaining, context_);
+      Element shared{std::move(common), element.sources, -1};
+      shared.sources.push_back(source);
+      fmpz_mpoly_divides(remaining, *element.factor, *shared.factor, context_);
+      if (fmpz_mpoly_is_fmpz(remaining, context_)) {
+        shared.input = element.input;
+      } else {
+        if (rest_divides && is_input) shared.input = source.index;
+        fmpz_mpoly_swap(*element.factor, remaining, context_);
+        element.input = -1;
+        refined.push_back(std::move(element));
+      }
+      is_input = false;
+      refined.push_back(std::move(shared));
+    }
+    elements_ = std::move(refined);
+    if (!fmpz_mpoly_is_fmpz(*rest, context_))
+      elements_.push_back({std::move(rest), {source}, is_input ? source.index : -1});
+  }
+
+  FlintContext<2> context_;
+  std::vector<Element> elements_;
+};
+
+}  // namespace
+
+// Restricting to one line modulo one prime p proves both statements below, whenever the restriction
+// r of f keeps the total degree of f.
+//
+// No repeated factor: let f = c G^2 H with c rational and G, H primitive in Z[x,y] (Gauss), G not
+// constant. p divides no denominator of f, so c is a p-integer, and r = c (G|)^2 (H|), where | is
+// the restriction modulo p. No degree grows under |, and the degrees on both sides are equal: so
+// deg G| = deg G > 0, and r is not square-free.
+//
+// No shared factor: let f = c H F' and g = c' H G' likewise, with H not constant. As before
+// deg H| = deg H > 0, and H| divides r and the restriction of g (which may be of any degree).
+std::vector<BaseElement<2>> coprime_square_free_base(const std::vector<Polynomial<2>>& inputs) {
+  const std::size_t n = inputs.size();
+  std::vector<std::unique_ptr<ModularPoly>> restriction(n);
+  std::vector<char> kept(n), simple(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    restriction[i] = std::make_unique<ModularPoly>(kPrime);
+    if (inputs[i].is_constant()) continue;
+    kept[i] = restrict_to_line(inputs[i], restriction[i].get());
+    simple[i] = kept[i] && nmod_poly_is_squarefree(*restriction[i]);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (inputs[i].is_constant() || inputs[j].is_constant()) continue;
+      if (!simple[i] && !simple[j]) continue;
+      if (kept[i] && kept[j] && coprime(*restriction[i], *restriction[j])) continue;
+      simple[i] = simple[j] = false;
+    }
+
+  // What is still simple was so at each of its pairs, and so proved coprime to every other input.
+  // The rest is refined among itself.
+  std::vector<BaseElement<2>> base;
+  Refinement refinement;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (inputs[i].is_constant()) continue;
+    if (simple[i])
+      base.push_back({inputs[i], {{static_cast<int>(i), 1}}});
+    else
+      refinement.add(static_cast<int>(i), inputs[i]);
+  }
+  for (auto& element : std::move(refinement).take(inputs)) base.push_back(std::move(element));
+  std::stable_sort(base.begin(), base.end(), [](const auto& a, const auto& b) {
+    return a.sources.front().index < b.sources.front().index;
+  });
+  return base;
+}
+
+namespace {
+
+/// An integer polynomial as one in the eliminated variable: rows[j] holds the coefficient of its
+/// j-th power by powers of the other variable.
+struct Rows {
+  std::vector<std::vector<Integer>> rows;
+  Integer denominator = 1;  ///< what the polynomial was multiplied with
+  Integer norm = 0;         ///< the sum of the absolute values of all coefficients
+  int degree = 0;           ///< in the eliminated variable
+  int other_degree = 0;
+  int total_degree = 0;
+
+  Rows(const Polynomial<2>& f, int eliminated_axis)
+      : degree(f.degree(eliminated_axis)),
+        other_degree(f.degree(1 - eliminated_axis)),
+        total_degree(f.degree()) {
+    rows.assign(static_cast<std::size_t>(degree) + 1,
+                std::vector<Integer>(static_cast<std::size_t>(other_degree) + 1));
+    for (const auto& term : f.terms())
+      mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(),
+              term.coefficient.get_den().get_mpz_t());
+    for (const auto& term : f.terms()) {
+      const Integer scaled =
+          term.coefficient.get_num() * (denominator / term.coefficient.get_den());
+      norm += abs(scaled);
+      rows[static_cast<std::size_t>(term.exponent[eliminated_axis])]
+          [static_cast<std::size_t>(term.exponent[1 - eliminated_axis])] = scaled;
+    }
+  }
+};
+
+/// Rows modulo a prime, to be evaluated at values of the other variable.
+class ModularRows {
+ public:
+  ModularRows(const Rows& f, const nmod_t& mod) : mod_(mod) {
+    for (const auto& row : f.rows) {
+      auto& reduced = rows_.emplace_back();
+      for (const Integer& c : row) reduced.push_back(mpz_fdiv_ui(c.get_mpz_t(), mod.n));
+    }
+  }
+  bool keeps_degree() const {
+    return std::any_of(rows_.back().begin(), rows_.back().end(), [](ulong c) { return c != 0; });
+  }
+  /// False if the degree drops there.
+  bool evaluate(ulong x, ModularPoly* value) const {
+    nmod_poly_zero(*value);
+    for (std::size_t j = rows_.size(); j-- > 0;) {
+      ulong sum = 0;
+      for (std::size_t i = rows_[j].size(); i-- > 0;)
+        sum = nmod_add(nmod_mul(sum, x, mod_), rows_[j][i], mod_);
+      if (j + 1 == rows_.size() && sum == 0) return false;
+      nmod_poly_set_coeff_ui(*value, static_cast<slong>(j), sum);
+    }
+    return true;
+  }
+
+ private:
+  nmod_t mod_;
+  std::vector<std::vector<ulong>> rows_;
+};
+
+long bits_of(const Integer& value) {
+  return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
+}
+
+}  // namespace
+
+// The Sylvester determinant commutes with every ring homomorphism, so where neither leading
+// coefficient vanishes the resultant modulo p at x = x_k is the resultant of the values. The values
+// at degree + 1 points determine it modulo p, and enough primes determine it over the integers:
+// each term of the determinant takes deg g factors from rows of f and deg f from rows of g, so that
+// the sum of the absolute values of its coefficients is at most |f|_1^(deg g) |g|_1^(deg f).
+Polynomial<1> resultant(const Polynomial<2>& f, const Polynomial<2>& g, int eliminated_axis) {
+  const Rows a(f, eliminated_axis), b(g, eliminated_axis);
+  const long bits = b.degree * bits_of(a.norm) + a.degree * bits_of(b.norm) + 2;
+  const int degree = std::min(a.total_degree * b.total_degree,
+                              a.degree * b.other_degree + b.degree * a.other_degree);
+  const std::size_t size = static_cast<std::size_t>(degree) + 1;
+
+  std::vector<ulong> primes;
+  std::vector<std::vector<ulong>> residues(size);  // by coefficient, then by prime
+  std::vector<ulong> point(size), value(size);
+  ulong prime = ulong{1} << 61;
+  while (61 * static_cast<long>(primes.size()) < bits) {
+    prime = n_nextprime(prime, 1);
+    nmod_t mod;
+    nmod_init(&mod, prime);
+    const ModularRows a_mod(a, mod), b_mod(b, mod);
+    if (!a_mod.keeps_degree() || !b_mod.keeps_degree()) continue;
+    ModularPoly a_value(prime), b_value(prime), result(prime);
+    ulong x = 0;
+    for (std::size_t k = 0; k < size; ++x) {
+      if (!a_mod.evaluate(x, &a_value) || !b_mod.evaluate(x, &b_value)) continue;
+      point[k] = x;
+      value[k++] = nmod_poly_resultant(a_value, b_value);
+    }
+    nmod_poly_interpolate_nmod_vec(result, point.data(), value.data(), static_cast<slong>(size));
+    primes.push_back(prime);
+    for (std::size_t k = 0; k < size; ++k)
+      residues[k].push_back(nmod_poly_get_coeff_ui(result, static_cast<slong>(k)));
+  }
+
+  Integer scale_a, scale_b;
+  mpz_pow_ui(scale_a.get_mpz_t(), a.denominator.get_mpz_t(), static_cast<ulong>(b.degree));
+  mpz_pow_ui(scale_b.get_mpz_t(), b.denominator.get_mpz_t(), static_cast<ulong>(a.degree));
+  const Rational scale(1, scale_a * scale_b);
+  std::vector<Polynomial<1>::Term> terms(size);
+  fmpz_comb_t comb;
+  fmpz_comb_temp_t space;
+  fmpz_comb_init(comb, primes.data(), static_cast<slong>(primes.size()));
+  fmpz_comb_temp_init(space, comb);
+  fmpz_t coefficient;
+  fmpz_init(coefficient);
+  for (std::size_t k = 0; k < size; ++k) {
+    fmpz_multi_CRT_ui(coefficient, residues[k].data(), comb, space, 1);
+    terms[k].exponent[0] = static_cast<int>(k);
+    fmpz_get_mpz(terms[k].coefficient.get_num_mpz_t(), coefficient);
+    terms[k].coefficient *= scale;
+  }
+  fmpz_clear(coefficient);
+  fmpz_comb_temp_clear(space);
+  fmpz_comb_clear(comb);
+  return Polynomial<1>::from_terms(std::move(terms));
+}
+
+Polynomial<1> gcd(const Polynomial<1>& f, const Polynomial<1>& g) {
+  IntegerPoly common, a(f), b(g);
+  fmpz_poly_gcd(common, a, b);
+  if (fmpz_poly_is_zero(common)) return {};
+  fmpz_poly_primitive_part(common, common);
+  return common.get();
+}
+
+namespace {
+
+void make_square_free(IntegerPoly* f) {
+  IntegerPoly derivative, common;
+  fmpz_poly_primitive_part(*f, *f);
+  fmpz_poly_derivative(derivative, *f);
+  fmpz_poly_gcd(common, *f, derivative);
+  if (fmpz_poly_degree(common) > 0) fmpz_poly_div(*f, *f, common);
+}
+
+int sign_variations(const fmpz_poly_struct* f) {
+  int variations = 0, previous = 0;
+  for (slong k = 0; k < f->length; ++k) {
+    const int sign = fmpz_sgn(f->coeffs + k);
+    if (sign == 0) continue;
+    if (sign == -previous) ++variations;
+    previous = sign;
+  }
+  return variations;
+}
+
+/// The number of roots in the open interval (0, 1) of a square-free f. By Descartes' rule it is the
+/// number of sign variations of (1 + t)^n f(1 / (1 + t)) if that is 0 or 1; halving gets there
+/// after finitely many steps because the roots are simple (Vincent's theorem).
+int count_in_unit_interval(const IntegerPoly& f) {
+  int count = 0;
+  std::vector<IntegerPoly> pending{f};
+  while (!pending.empty()) {
+    IntegerPoly lower = std::move(pending.back());
+    pending.pop_back();
+    const slong degree = fmpz_poly_degree(lower);
+    if (degree < 1) continue;
+    IntegerPoly moved;
+    fmpz_poly_reverse(moved, lower, degree + 1);
+    fmpz_t one;
+    fmpz_init_set_ui(one, 1);
+    fmpz_poly_taylor_shift(moved, moved, one);
+    const int variations = sign_variations(moved);
+    if (variations <= 1) {
+      count += variations;
+      fmpz_clear(one);
+      continue;
+    }
+    // 2^n f(t / 2), and the same shifted by one for the upper half.
+    for (slong k = 0; k <= degree; ++k)
+      fmpz_mul_2exp(fmpz_poly_get_coeff_ptr(lower, k), fmpz_poly_get_coeff_ptr(lower, k),
+                    static_cast<ulong>(degree - k));
+    IntegerPoly upper;
+    fmpz_poly_taylor_shift(upper, lower, one);
+    fmpz_clear(one);
+    if (fmpz_is_zero(fmpz_poly_get_coeff_ptr(upper, 0))) {
+      ++count;
+      fmpz_poly_shift_right(upper, upper, 1);
+    }
+    pending.push_back(upper);
+    pending.push_back(lower);
+  }
+  return count;
+}
+
+}  // namespace
+
+Polynomial<1> square_free_part(const Polynomial<1>& f) {
+  IntegerPoly part(f);
+  make_square_free(&part);
+  if (fmpz_sgn(fmpz_poly_lead(part)) < 0) fmpz_poly_neg(part, part);
+  return part.get();
+}
+
+int count_real_roots(const Polynomial<1>& f, const Rational& lo, const Rational& hi) {
+  if (lo > hi || f.is_constant()) return 0;
+  if (lo == hi) return f({lo}) == 0 ? 1 : 0;
+  IntegerPoly g(f);
+  make_square_free(&g);
+  const Polynomial<1> reduced = g.get();
+  int count = 0;
+  if (reduced({hi}) == 0) ++count;
+  if (reduced({lo}) == 0) ++count;
+  // With lo = a / c and hi = b / c: c^n g((a + (b - a) t) / c), whose roots at 0 are divided out. A
+  // root at 1 makes no difference to the count in the open interval.
+  Integer c;
+  mpz_lcm(c.get_mpz_t(), lo.get_den_mpz_t(), hi.get_den_mpz_t());
+  const Integer a = lo.get_num() * (c / lo.get_den());
+  const Integer length = hi.get_num() * (c / hi.get_den()) - a;
+  const slong degree = fmpz_poly_degree(g);
+  fmpz_t factor, scale, shift;
+  fmpz_init_set_ui(factor, 1);
+  fmpz_init(scale);
+  fmpz_init(shift);
+  fmpz_set_mpz(scale, c.get_mpz_t());
+  fmpz_set_mpz(shift, a.get_mpz_t());
+  for (slong k = degree; k >= 0; --k) {
+    fmpz_mul(fmpz_poly_get_coeff_ptr(g, k), fmpz_poly_get_coeff_ptr(g, k), factor);
+    fmpz_mul(factor, factor, scale);
+  }
+  fmpz_poly_taylor_shift(g, g, shift);
+  fmpz_set_mpz(scale, length.get_mpz_t());
+  fmpz_one(factor);
+  for (slong k = 0; k <= degree; ++k) {
+    fmpz_mul(fmpz_poly_get_coeff_ptr(g, k), fmpz_poly_get_coeff_ptr(g, k), factor);
+    fmpz_mul(factor, factor, scale);
+  }
+  fmpz_clear(factor);
+  fmpz_clear(scale);
+  fmpz_clear(shift);
+  if (fmpz_is_zero(fmpz_poly_get_coeff_ptr(g, 0))) fmpz_poly_shift_right(g, g, 1);
+  fmpz_poly_primitive_part(g, g);
+  return count + count_in_unit_interval(g);
+}
+
+}  // namespace encase
