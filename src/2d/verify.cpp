@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "encase/verify.hpp"
+
+#include <cmath>
+
+#include "verify_claims.hpp"
+
+namespace encase {
+
+namespace verification {
+
+namespace {
+
+bool finite(double a) { return std::isfinite(a); }
+bool finite(const Point<2>& p) { return finite(p[0]) && finite(p[1]); }
+bool ordered(const Box<2>& b) {
+  return finite(b.lo) && finite(b.hi) && b.lo[0] <= b.hi[0] && b.lo[1] <= b.hi[1];
+}
+bool has_interior(const Box<2>& b) { return ordered(b) && b.lo[0] < b.hi[0] && b.lo[1] < b.hi[1]; }
+template <class T>
+bool in_range(int index, const std::vector<T>& list) {
+  return index >= 0 && static_cast<std::size_t>(index) < list.size();
+}
+bool ascending(const std::vector<int>& list) {
+  for (std::size_t i = 1; i < list.size(); ++i)
+    if (list[i - 1] >= list[i]) return false;
+  return true;
+}
+bool proper(const Rational& q) { return mpz_sgn(mpq_denref(q.get_mpq_t())) > 0; }
+
+bool is_curve(const Polynomial<2>& f) {
+  for (const auto& term : f.terms())
+    if (term.exponent[0] < 0 || term.exponent[1] < 0 || term.exponent[0] > kMaxDegree ||
+        term.exponent[1] > kMaxDegree || !proper(term.coefficient))
+      return false;
+  return f.degree() >= 1 && f.degree() <= kMaxDegree;
+}
+
+bool is_line(const Line& line) {
+  if (!finite(line.normal) || !finite(line.offset)) return false;
+  if (line.normal[0] == 0 && line.normal[1] == 0) return false;
+  if (!line.rational) return true;
+  for (const Rational& c : *line.rational)
+    if (!proper(c)) return false;
+  const Line rounded = Line::from_rationals(*line.rational);
+  // The sign of a rounded coefficient stands for that of the exact one: neither underflows.
+  for (std::size_t i = 0; i < 2; ++i)
+    if ((line.normal[i] == 0) != ((*line.rational)[i] == 0)) return false;
+  return rounded.normal == line.normal && rounded.offset == line.offset;
+}
+
+bool is_region(const Region& region) {
+  for (const auto& corner : region.corners)
+    if (!proper(corner[0]) || !proper(corner[1])) return false;
+  return region.corners.size() >= 3;
+}
+
+bool is_child(int child, const Encasement& e) {
+  return child >= 0 ? in_range(child, e.history) : in_range(~child, e.cells);
+}
+
+void check_input_structure(Claims& claims) {
+  const Encasement& e = claims.result;
+  claims.require(finite(e.perturbation) && e.perturbation >= 0,
+                 "The perturbation is not a number.");
+  for (std::size_t i = 0; i < e.input.size(); ++i)
+    claims.require(is_curve(e.input[i].polynomial), "Input curve ", i,
+                   " is not a polynomial of degree 1 to ", kMaxDegree, ".");
+  for (std::size_t i = 0; i < e.curves.size(); ++i) {
+    const Curve& curve = e.curves[i];
+    claims.require(is_curve(curve.polynomial), "Curve ", i, " is not a polynomial of degree 1 to ",
+                   kMaxDegree, ".");
+    bool sources = !curve.sources.empty() && ascending(curve.sources);
+    for (int s : curve.sources) sources = sources && in_range(s, e.input);
+    claims.require(sources, "Curve ", i, " does not name ascending indices of input curves.");
+  }
+  claims.require(is_region(e.region), "The region is not a polygon with rational corners.");
+  claims.require(is_region(e.region_used),
+                 "The region used is not a polygon with rational corners.");
+  for (std::size_t i = 0; i < e.lines.size() && !claims.full(); ++i)
+    claims.require(is_line(e.lines[i]), "Line ", i, " has no valid coefficients.");
+  claims.require(e.lines.size() >= e.region_used.corners.size(),
+                 "There are fewer lines than sides of the region used.");
+}
+
+void check_crossing_structure(Claims& claims) {
+  const Encasement& e = claims.result;
+  for (std::size_t i = 0; i < e.line_crossings.size() && !claims.full(); ++i) {
+    const LineCrossing& c = e.line_crossings[i];
+    claims.require(in_range(c.line, e.lines) && in_range(c.curve, e.curves) && finite(c.lo) &&
+                       finite(c.hi) && c.lo < c.hi,
+                   "Line crossing ", i, " has a bad index or interval.");
+  }
+  for (std::size_t i = 0; i < e.crossings.size() && !claims.full(); ++i) {
+    const Crossing& c = e.crossings[i];
+    claims.require(in_range(c.curves[0], e.curves) && in_range(c.curves[1], e.curves) &&
+                       c.curves[0] < c.curves[1],
+                   "Crossing ", i, " does not name two curves in ascending order.");
+    claims.require(has_interior(c.box) && finite(c.point), "Crossing ", i,
+                   " has a bad box or point.");
+    claims.require(c.cell == -1 || in_range(c.cell, e.cells), "Crossing ", i,
+                   " names a cell that does not exist.");
+    claims.require(c.location == Location::Inside || c.location == Location::OnBoundary ||
+                       c.location == Location::Outside,
+                   "Crossing ", i, " has no valid location.");
+  }
+}
+
+void check_cell_structure(Claims& claims) {
+  const Encasement& e = claims.result;
+  for (std::size_t i = 0; i < e.cells.size() && !claims.full(); ++i) {
+    const Cell& cell = e.cells[i];
+    bool vertices = cell.vertices.size() >= 3;
+    for (const Vertex& v : cell.vertices)
+      vertices = vertices && in_range(v.line_in, e.lines) && in_range(v.line_out, e.lines) &&
+                 finite(v.parameter) && finite(v.point);
+    claims.require(vertices, "Cell ", i, " has a vertex with a bad line or number.");
+    bool word = true;
+    for (int c : cell.word) word = word && in_range(c, e.line_crossings);
+    claims.require(word, "The word of cell ", i, " names a line crossing that does not exist.");
+    bool branches = true;
+    for (const Branch& b : cell.branches)
+      branches = branches && in_range(b.curve, e.curves) && in_range(b.from, e.line_crossings) &&
+                 in_range(b.to, e.line_crossings);
+    claims.require(branches, "A branch of cell ", i, " has a bad index.");
+    claims.require(cell.crossing == -1 || in_range(cell.crossing, e.crossings), "Cell ", i,
+                   " names a crossing that does not exist.");
+    bool certificates = true;
+    for (const LoopCertificate& c : cell.loop_certificates)
+      certificates = certificates && in_range(c.critical_region, e.critical_regions) &&
+                     finite(c.from) && finite(c.to);
+    claims.require(certificates, "A loop certificate of cell ", i, " has a bad index or point.");
+    claims.require(cell.state == CellState::Certified || cell.state == CellState::Relaxed ||
+                       cell.state == CellState::Degenerate || cell.state == CellState::Undecided,
+                   "Cell ", i, " has no valid state.");
+  }
+  for (std::size_t i = 0; i < e.history.size() && !claims.full(); ++i) {
+    const Split& split = e.history[i];
+    claims.require(
+        in_range(split.line, e.lines) && is_child(split.negative, e) && is_child(split.positive, e),
+        "Split ", i, " has a bad line or child.");
+  }
+}
+
+template <class T>
+bool are_tokens(const std::vector<int>& tokens, const std::vector<T>& items) {
+  for (int token : tokens)
+    if (token < cover::kUnresolved || (token >= 0 && !in_range(token, items))) return false;
+  return true;
+}
+
+void check_certificate_structure(Claims& claims) {
+  const Encasement& e = claims.result;
+  for (std::size_t i = 0; i < e.crossing_covers.size() && !claims.full(); ++i) {
+    const CrossingCover& c = e.crossing_covers[i];
+    claims.require(in_range(c.curves[0], e.curves) && in_range(c.curves[1], e.curves) &&
+                       c.curves[0] < c.curves[1] && has_interior(c.root) &&
+                       are_tokens(c.tokens, e.crossings),
+                   "Crossing cover ", i, " has a bad index, root or token.");
+  }
+  for (std::size_t i = 0; i < e.critical_covers.size() && !claims.full(); ++i) {
+    const CriticalCover& c = e.critical_covers[i];
+    claims.require(in_range(c.curve, e.curves) && has_interior(c.root) &&
+                       are_tokens(c.tokens, e.critical_regions),
+                   "Critical cover ", i, " has a bad index, root or token.");
+  }
+  for (std::size_t i = 0; i < e.critical_regions.size() && !claims.full(); ++i) {
+    const CriticalRegion& r = e.critical_regions[i];
+    bool boxes = !r.boxes.empty();
+    for (const Box<2>& box : r.boxes) boxes = boxes && ordered(box);
+    claims.require(in_range(r.curve, e.curves) && boxes, "Critical region ", i,
+                   " has a bad curve or box.");
+    claims.require(r.sign == Sign::Negative || r.sign == Sign::Positive, "Critical region ", i,
+                   " has no sign.");
+  }
+  using Kind = Unresolved::Kind;
+  for (const auto* list : {&e.degenerate, &e.undecided})
+    for (std::size_t i = 0; i < list->size() && !claims.full(); ++i) {
+      const Unresolved& u = (*list)[i];
+      const char* name = list == &e.degenerate ? "Degenerate" : "Undecided";
+      const bool component = u.kind == Kind::SharedComponent || u.kind == Kind::RepeatedComponent;
+      bool curves = ascending(u.curves);
+      for (int c : u.curves)
+        curves = curves && (component ? in_range(c, e.input) : in_range(c, e.curves));
+      claims.require(curves, name, " entry ", i, " does not name ascending indices of curves.");
+      claims.require(!u.has_box || ordered(u.box), name, " entry ", i, " has a bad box.");
+      claims.require(component || u.kind == Kind::Contact || u.kind == Kind::SingularPoint ||
+                         u.kind == Kind::Concurrency || u.kind == Kind::Budget,
+                     name, " entry ", i, " has no valid kind.");
+    }
+}
+
+}  // namespace
+
+bool check_structure(Claims& claims) {
+  check_input_structure(claims);
+  check_crossing_structure(claims);
+  check_cell_structure(claims);
+  check_certificate_structure(claims);
+  return claims.report.ok();
+}
+
+void check_outcome(Claims& claims) {
+  const Encasement& e = claims.result;
+  bool settled = true, undecided = !e.undecided.empty();
+  for (const Cell& cell : e.cells) {
+    settled = settled && certified(cell);
+    undecided = undecided || cell.state == CellState::Undecided;
+  }
+  const Outcome outcome = undecided                         ? Outcome::Undecided
+                          : settled && e.degenerate.empty() ? Outcome::Certified
+                                                            : Outcome::Degenerate;
+  claims.require(e.outcome == outcome, "The outcome should be ",
+                 outcome == Outcome::Certified   ? "certified"
+                 : outcome == Outcome::Undecided ? "undecided"
+                                                 : "degenerate",
+                 ", as the cells and the unresolved entries are.");
+}
+
+}  // namespace verification
+
+Verification verify(const Encasement& encasement, const VerifyOptions& options) {
+  using namespace verification;
+  Claims claims(encasement, options);
+
+  // Index errors and the like first, so that everything below may follow indices freely.
+  if (!check_structure(claims)) return claims.report;
+  claims.curves.reserve(encasement.curves.size());
+  for (const Curve& curve : encasement.curves) claims.curves.emplace_back(curve.polynomial);
+
+  // The cheap statements that everything refers to.
+  check_outcome(claims);
+  check_curves(claims);
+  if (!check_regions(claims) || claims.full()) return claims.report;
+
+  // The partition with all zeros on its lines; then what lies inside.
+  const Partition partition = replay_history(claims);
+  if (partition.complete) {
+    check_cell_boundaries(claims, partition);
+    check_crossings(claims, partition);
+    check_cells(claims, partition);
+  }
+
+  // No crossing and no loop is missing from the lists.
+  check_crossing_covers(claims);
+  check_critical_regions(claims);
+  check_critical_covers(claims);
+  return claims.report;
+}
+
+}  // namespace encase

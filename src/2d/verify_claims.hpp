@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/filtered_polynomial.hpp"
+#include "common/interval.hpp"
+#include "common/kernel.hpp"
+#include "encase/verify.hpp"
+
+/// The claims of an encasement, group by group in the order in which `verify` re-proves them.
+/// Nothing here trusts the search: what is asked are read-only statements about single boxes,
+/// segments and points (`box_tests.hpp`, `segments.hpp`) and exact arithmetic.
+namespace encase::verification {
+
+inline void append(std::string& text, const char* part) { text += part; }
+inline void append(std::string& text, const std::string& part) { text += part; }
+inline void append(std::string& text, int part) { text += std::to_string(part); }
+inline void append(std::string& text, std::size_t part) { text += std::to_string(part); }
+
+/// What all checks share: the result under test, its curves prepared for questions, the precision
+/// ladder, and the report.
+struct Claims {
+  Claims(const Encasement& encasement, const VerifyOptions& options)
+      : result(encasement),
+        max_objections(options.max_objections > 1 ? options.max_objections : 1) {
+    kernel.max_bits = options.max_bits;
+  }
+
+  /// Counts a claim that is proved, and objects to one that is not in a sentence made of `parts`.
+  template <class... Parts>
+  bool require(bool proved, const Parts&... parts) {
+    if (proved) {
+      ++report.claims;
+      return true;
+    }
+    if (!full()) {
+      std::string sentence;
+      (append(sentence, parts), ...);
+      report.objections.push_back(std::move(sentence));
+    }
+    return false;
+  }
+  /// Enough objections: checking more would only take time.
+  bool full() const { return static_cast<int>(report.objections.size()) >= max_objections; }
+
+  const Encasement& result;
+  int max_objections;
+  Kernel kernel;
+  std::vector<FilteredPolynomial<2>> curves;
+  Verification report;
+};
+
+/// Every index is in range, every number finite, every box ordered, every enumerator named. All
+/// later checks rely on it: false ends the verification.
+bool check_structure(Claims& claims);
+
+/// The encased curves are square-free, pairwise coprime, and together have the zeros of the input;
+/// repeated and shared components are reported, and no others.
+void check_curves(Claims& claims);
+
+/// The two regions are convex polygons; the region used contains the region asked for, exceeds it
+/// by at most 2^-30 of its diameter, and its sides are the first lines. False: no partition makes
+/// sense.
+bool check_regions(Claims& claims);
+
+/// A part of a line inside the polygon that it cuts, or a side of the region used, with the line
+/// crossings on it in the order of the parameter.
+struct Segment {
+  int line = -1;
+  std::vector<int> crossings;
+};
+
+/// An edge of a polygon on its way counter-clockwise around it.
+struct Edge {
+  int line = -1;
+  Sign interior = Sign::Negative;  ///< the side of the line on which the polygon lies
+  int segment = -1;
+  int first = 0;  ///< its crossings are those of the segment from `first` to before `last`
+  int last = 0;
+  std::array<Interval, 2> start;  ///< encloses the corner where it begins
+};
+
+using Polygon = std::vector<Edge>;
+
+/// The splits, replayed.
+struct Partition {
+  std::vector<Segment> segments;
+  std::vector<Polygon> cells;
+  /// Every split cuts its polygon and every cell has its own leaf: the cells partition the region
+  /// used. Where it is false nothing else here may be used.
+  bool complete = false;
+};
+
+inline bool certified(const Cell& cell) {
+  return cell.state == CellState::Certified || cell.state == CellState::Relaxed;
+}
+
+/// Whether the parameter increases along an edge counter-clockwise.
+bool parameter_increases(const Line& line, Sign interior);
+
+/// Replays the history: every line cuts its polygon properly, and on every segment the line
+/// crossings are all zeros of all curves, simple, in proved order, with the segment's and the
+/// cells' corners between them.
+Partition replay_history(Claims& claims);
+
+/// The cells' vertices and words are those of the replayed polygons.
+void check_cell_boundaries(Claims& claims, const Partition& partition);
+
+/// The cells whose closed polygon may meet the closed box: none that does is missing.
+std::vector<int> cells_near(Claims& claims, const Partition& partition, const Box<2>& box);
+
+/// The only cell whose interior contains all boxes of a connected set; -1 if there is none.
+int cell_around(Claims& claims, const std::vector<Box<2>>& boxes);
+
+/// Whether the closed box lies in the interior of the polygon.
+bool strictly_inside(Claims& claims, const Polygon& polygon, const Box<2>& box);
+
+/// Each crossing box holds exactly one common zero, no other box of its pair meets it, it lies in
+/// the cell it names, and its location, its point and the rounding of its point are right.
+void check_crossings(Claims& claims, const Partition& partition);
+
+/// The lists of crossings and of critical regions are complete, and the latter are what they claim.
+void check_crossing_covers(Claims& claims);
+void check_critical_regions(Claims& claims);
+void check_critical_covers(Claims& claims);
+
+/// The certified cells satisfy the definition, every critical region inside one has its loop
+/// certificate, and no unresolved box meets one.
+void check_cells(Claims& claims, const Partition& partition);
+
+/// The outcome is what the lists and the cells make it.
+void check_outcome(Claims& claims);
+
+}  // namespace encase::verification

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "common/box_tests.hpp"
+#include "common/segments.hpp"
+#include "verify_claims.hpp"
+
+namespace encase::verification {
+
+namespace {
+
+/// How often a leaf may be halved to prove what does not show on the whole of it.
+constexpr int kLeafDepth = 6;
+
+/// Halves a closed box at the double next to its middle: two closed boxes whose union it is. False
+/// if there is no double in between.
+bool halves(const Box<2>& box, std::size_t axis, Box<2>* lower, Box<2>* upper) {
+  const double cut = box.lo[axis] + (box.hi[axis] - box.lo[axis]) / 2;
+  if (!(box.lo[axis] < cut && cut < box.hi[axis])) return false;
+  *lower = *upper = box;
+  lower->hi[axis] = upper->lo[axis] = cut;
+  return true;
+}
+
+/// Whether `proves` holds on every part of some subdivision of the box.
+template <class Proves>
+bool by_parts(const Box<2>& box, int depth, const Proves& proves) {
+  if (proves(box)) return true;
+  Box<2> lower, upper;
+  if (depth == 0 || !halves(box, box.width(1) > box.width(0) ? 1 : 0, &lower, &upper)) return false;
+  return by_parts(lower, depth - 1, proves) && by_parts(upper, depth - 1, proves);
+}
+
+bool contains_region(const Box<2>& box, const Region& region) {
+  for (const auto& corner : region.corners)
+    for (std::size_t i = 0; i < 2; ++i)
+      if (corner[i] < Rational(box.lo[i]) || corner[i] > Rational(box.hi[i])) return false;
+  return true;
+}
+
+bool outside_region_used(Claims& claims, const Box<2>& box) {
+  const Encasement& e = claims.result;
+  for (int k = 0; k < e.region_used.side_count(); ++k)
+    if (side(e.lines[static_cast<std::size_t>(k)], box, claims.kernel) == Sign::Positive)
+      return true;
+  return false;
+}
+
+/// Whether the box lies in that of an unresolved entry which names all the curves. A budget that
+/// names none concerns all of them.
+bool unresolved(const Encasement& e, const Box<2>& box, const std::vector<int>& curves) {
+  for (const auto* list : {&e.degenerate, &e.undecided})
+    for (const Unresolved& u : *list) {
+      if (!u.has_box || u.kind == Unresolved::Kind::SharedComponent ||
+          u.kind == Unresolved::Kind::RepeatedComponent || !u.box.contains(box))
+        continue;
+      if (u.kind == Unresolved::Kind::Budget && u.curves.empty()) return true;
+      if (std::includes(u.curves.begin(), u.curves.end(), curves.begin(), curves.end()))
+        return true;
+    }
+  return false;
+}
+
+/// Replays a subdivision from its tokens. `check(token, box)` re-proves a leaf: nothing, or why
+/// not.
+template <class Check>
+void replay(Claims& claims, const std::string& name, const Box<2>& root,
+            const std::vector<int>& tokens, const Check& check) {
+  claims.require(contains_region(root, claims.result.region_used), name,
+                 " does not cover the region used.");
+  std::vector<Box<2>> stack{root};
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    if (claims.full()) return;
+    if (!claims.require(!stack.empty(), name, " has tokens left after its last leaf.")) return;
+    const Box<2> box = stack.back();
+    stack.pop_back();
+    const int token = tokens[i];
+    if (token == cover::kSplitX || token == cover::kSplitY) {
+      Box<2> lower, upper;
+      if (!claims.require(halves(box, token == cover::kSplitX ? 0 : 1, &lower, &upper), name,
+                          " splits a box that doubles cannot split, at token ", i, "."))
+        return;
+      stack.push_back(upper);
+      stack.push_back(lower);
+      continue;
+    }
+    const char* objection = nullptr;
+    if (token == cover::kOutside) {
+      if (!outside_region_used(claims, box)) objection = "is not outside the region used";
+    } else {
+      objection = check(token, box);
+    }
+    claims.require(!objection, name, ": the leaf at token ", i, " ", objection ? objection : "",
+                   ".");
+  }
+  claims.require(stack.empty(), name, " ends before its last leaf.");
+}
+
+struct Less {
+  bool operator()(const Box<2>& a, const Box<2>& b) const {
+    return std::pair(a.lo, a.hi) < std::pair(b.lo, b.hi);
+  }
+};
+
+/// Whether the union of closed boxes is connected.
+bool connected(std::vector<Box<2>> boxes) {
+  std::sort(boxes.begin(), boxes.end(), Less());
+  std::vector<std::size_t> parent(boxes.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::size_t components = boxes.size();
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lo[0] <= boxes[i].hi[0]; ++j) {
+      if (!boxes[i].meets(boxes[j])) continue;
+      const std::size_t a = find(i), b = find(j);
+      if (a == b) continue;
+      parent[a] = b;
+      --components;
+    }
+  return components == 1;
+}
+
+}  // namespace
+
+void check_crossing_covers(Claims& claims) {
+  const Encasement& e = claims.result;
+  const std::size_t n = e.curves.size();
+  std::set<std::array<int, 2>> pairs;
+  for (std::size_t i = 0; i < e.crossing_covers.size() && !claims.full(); ++i) {
+    const CrossingCover& c = e.crossing_covers[i];
+    claims.require(pairs.insert(c.curves).second, "Curves ", c.curves[0], " and ", c.curves[1],
+                   " have two crossing covers.");
+    const System<2> pair{&claims.curves[static_cast<std::size_t>(c.curves[0])],
+                         &claims.curves[static_cast<std::size_t>(c.curves[1])]};
+    const auto check = [&](int token, const Box<2>& leaf) -> const char* {
+      if (token == cover::kUnresolved)
+        return unresolved(e, leaf, {c.curves[0], c.curves[1]})
+                   ? nullptr
+                   : "is in no unresolved box of the pair";
+      if (token == cover::kExcluded)
+        return by_parts(
+                   leaf, kLeafDepth,
+                   [&](const Box<2>& box) { return no_common_zero<2>(pair, box, claims.kernel); })
+                   ? nullptr
+                   : "is not proved free of crossings";
+      const Crossing& crossing = e.crossings[static_cast<std::size_t>(token)];
+      if (crossing.curves != c.curves) return "names a crossing of other curves";
+      // At most one zero in a box with the whole box of the crossing, which has one: what the leaf
+      // can hold is that crossing.
+      const auto proves = [&](const Box<2>& box) {
+        return crossing.box.contains(box) ||
+               at_most_one_zero<2>(pair, hull(box, crossing.box), claims.kernel) ||
+               no_common_zero<2>(pair, box, claims.kernel);
+      };
+      return by_parts(leaf, kLeafDepth, proves) ? nullptr
+                                                : "is not proved to hold only its crossing";
+    };
+    replay(claims, "Crossing cover " + std::to_string(i), c.root, c.tokens, check);
+  }
+  claims.require(pairs.size() == n * (n - (n > 0)) / 2,
+                 "Some pair of curves has no crossing cover.");
+}
+
+void check_critical_regions(Claims& claims) {
+  const Encasement& e = claims.result;
+  for (std::size_t i = 0; i < e.critical_regions.size() && !claims.full(); ++i) {
+    const CriticalRegion& region = e.critical_regions[i];
+    const auto& f = claims.curves[static_cast<std::size_t>(region.curve)];
+    bool proved = true;
+    for (const Box<2>& box : region.boxes) {
+      proved = by_parts(box, kLeafDepth, [&](const Box<2>& part) {
+        return sign_on_box(f, part, claims.kernel) == region.sign;
+      });
+      if (!proved) break;
+    }
+    claims.require(proved, "Curve ", region.curve,
+                   " is not proved to have its sign on critical region ", i, ".");
+    if (proved)
+      claims.require(connected(region.boxes), "The boxes of critical region ", i,
+                     " do not hang together.");
+  }
+}
+
+void check_critical_covers(Claims& claims) {
+  const Encasement& e = claims.result;
+  using Boxes = std::set<Box<2>, Less>;
+  std::vector<Boxes> boxes;
+  for (const CriticalRegion& region : e.critical_regions)
+    boxes.emplace_back(region.boxes.begin(), region.boxes.end());
+  std::set<int> curves;
+  for (std::size_t i = 0; i < e.critical_covers.size() && !claims.full(); ++i) {
+    const CriticalCover& c = e.critical_covers[i];
+    claims.require(curves.insert(c.curve).second, "Curve ", c.curve, " has two critical covers.");
+    const auto& f = claims.curves[static_cast<std::size_t>(c.curve)];
+    const auto check = [&](int token, const Box<2>& leaf) -> const char* {
+      if (token == cover::kUnresolved)
+        return unresolved(e, leaf, {c.curve}) ? nullptr : "is in no unresolved box of the curve";
+      if (token == cover::kExcluded)
+        return by_parts(leaf, kLeafDepth,
+                        [&](const Box<2>& box) {
+                          return no_relevant_critical_point(f, box, claims.kernel);
+                        })
+                   ? nullptr
+                   : "is not proved free of critical points";
+      // The sign on it is checked with the other boxes of its region.
+      const auto k = static_cast<std::size_t>(token);
+      if (e.critical_regions[k].curve != c.curve) return "names a critical region of another curve";
+      return boxes[k].contains(leaf) ? nullptr : "is not a box of its critical region";
+    };
+    replay(claims, "Critical cover " + std::to_string(i), c.root, c.tokens, check);
+  }
+  claims.require(curves.size() == e.curves.size(), "Some curve has no critical cover.");
+}
+
+}  // namespace encase::verification

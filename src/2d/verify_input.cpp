@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <set>
+
+#include "common/components.hpp"
+#include "verify_claims.hpp"
+
+namespace encase::verification {
+
+namespace {
+
+/// Whether f = c g for a constant c.
+bool proportional(const Polynomial<2>& f, const Polynomial<2>& g) {
+  if (f == g) return true;
+  if (f.terms().size() != g.terms().size() || f.is_zero()) return false;
+  const Rational ratio = f.terms()[0].coefficient / g.terms()[0].coefficient;
+  for (std::size_t k = 0; k < f.terms().size(); ++k)
+    if (f.terms()[k].exponent != g.terms()[k].exponent ||
+        f.terms()[k].coefficient != ratio * g.terms()[k].coefficient)
+      return false;
+  return true;
+}
+
+/// Whether the curves are, up to constants, the input curves one by one.
+bool one_to_one(const Encasement& e) {
+  std::set<int> inputs;
+  for (const Curve& curve : e.curves) {
+    if (curve.sources.size() != 1 || !inputs.insert(curve.sources[0]).second) return false;
+    if (!proportional(curve.polynomial,
+                      e.input[static_cast<std::size_t>(curve.sources[0])].polynomial))
+      return false;
+  }
+  return inputs.size() == e.input.size();
+}
+
+/// The polynomials' common refinement assigns every irreducible factor its sources.
+void check_factors(Claims& claims, std::set<int>* repeated) {
+  const Encasement& e = claims.result;
+  const int n = static_cast<int>(e.input.size());
+  const bool generic = one_to_one(e);
+  std::vector<Polynomial<2>> polynomials;
+  if (!generic)
+    for (const NamedCurve& input : e.input) polynomials.push_back(input.polynomial);
+  for (const Curve& curve : e.curves) polynomials.push_back(curve.polynomial);
+  const int first_curve = generic ? 0 : n;
+
+  for (const auto& element : coprime_square_free_base(polynomials)) {
+    std::vector<int> inputs, curves;
+    for (const auto& source : element.sources) {
+      if (source.index < first_curve) {
+        inputs.push_back(source.index);
+        if (source.multiplicity > 1) repeated->insert(source.index);
+      } else {
+        curves.push_back(source.index - first_curve);
+        claims.require(source.multiplicity == 1, "Curve ", curves.back(),
+                       " has a repeated component.");
+      }
+    }
+    // Every factor in one curve alone: the curves are coprime, and no component is missing.
+    if (curves.size() > 1)
+      claims.require(false, "Curves ", curves[0], " and ", curves[1], " share a component.");
+    else if (curves.empty())
+      claims.require(false, "A component of input curve ", inputs[0], " is in no curve.");
+    else if (!generic)
+      claims.require(inputs == e.curves[static_cast<std::size_t>(curves[0])].sources, "Curve ",
+                     curves[0], " does not have the components that its sources say.");
+  }
+}
+
+/// The reported components are those there are.
+void check_components(Claims& claims, const std::set<int>& repeated) {
+  const Encasement& e = claims.result;
+  using Kind = Unresolved::Kind;
+  for (const Unresolved& u : e.undecided)
+    claims.require(u.kind != Kind::SharedComponent && u.kind != Kind::RepeatedComponent,
+                   "A shared or repeated component is listed as undecided.");
+  std::set<int> reported;
+  std::set<std::pair<int, int>> reported_pairs;
+  for (std::size_t i = 0; i < e.degenerate.size() && !claims.full(); ++i) {
+    const Unresolved& u = e.degenerate[i];
+    if (u.kind == Kind::RepeatedComponent) {
+      reported.insert(u.curves.begin(), u.curves.end());
+      claims.require(!u.curves.empty() && std::includes(repeated.begin(), repeated.end(),
+                                                        u.curves.begin(), u.curves.end()),
+                     "Degenerate entry ", i, " reports a repeated component that is not there.");
+    }
+    if (u.kind == Kind::SharedComponent) {
+      for (std::size_t k = 0; k < u.curves.size(); ++k)
+        for (std::size_t l = 0; l < k; ++l) reported_pairs.insert({u.curves[l], u.curves[k]});
+      const bool shared =
+          u.curves.size() > 1 && std::any_of(e.curves.begin(), e.curves.end(), [&](const Curve& c) {
+            return std::includes(c.sources.begin(), c.sources.end(), u.curves.begin(),
+                                 u.curves.end());
+          });
+      claims.require(shared, "Degenerate entry ", i,
+                     " reports a shared component that is not there.");
+    }
+  }
+  for (int k : repeated)
+    claims.require(reported.count(k) > 0, "The repeated component of input curve ", k,
+                   " is not reported.");
+  for (const Curve& curve : e.curves)
+    for (std::size_t k = 0; k < curve.sources.size(); ++k)
+      for (std::size_t l = 0; l < k; ++l)
+        claims.require(reported_pairs.count({curve.sources[l], curve.sources[k]}) > 0,
+                       "The component that input curves ", curve.sources[l], " and ",
+                       curve.sources[k], " share is not reported.");
+}
+
+using Vector = RationalPoint<2>;
+
+Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
+Rational cross(const Vector& a, const Vector& b) { return a[0] * b[1] - a[1] * b[0]; }
+Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
+
+/// Whether a point lies strictly left of (1), on (0) or right of (-1) side k of a region.
+int left_of_side(const Region& region, std::size_t k, const Vector& point) {
+  const Vector& p = region.corners[k];
+  const Vector& q = region.corners[(k + 1) % region.corners.size()];
+  return sgn(cross(difference(q, p), difference(point, p)));
+}
+
+/// All other corners lie strictly left of every side: then the sides, in order, are those of the
+/// corners' convex hull, counter-clockwise.
+bool convex(const Region& region) {
+  const std::size_t n = region.corners.size();
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < n; ++i)
+      if (i != k && i != (k + 1) % n && left_of_side(region, k, region.corners[i]) <= 0)
+        return false;
+  return true;
+}
+
+bool contains(const Region& region, const Vector& point) {
+  for (std::size_t k = 0; k < region.corners.size(); ++k)
+    if (left_of_side(region, k, point) < 0) return false;
+  return true;
+}
+
+/// The squared distance of a point from a side.
+Rational squared_distance(const Region& region, std::size_t k, const Vector& point) {
+  const Vector& p = region.corners[k];
+  const Vector along = difference(region.corners[(k + 1) % region.corners.size()], p);
+  Rational t = dot(difference(point, p), along) / dot(along, along);
+  if (t < 0) t = 0;
+  if (t > 1) t = 1;
+  const Vector offset = difference(point, {p[0] + t * along[0], p[1] + t * along[1]});
+  return dot(offset, offset);
+}
+
+}  // namespace
+
+void check_curves(Claims& claims) {
+  std::set<int> repeated;
+  check_factors(claims, &repeated);
+  check_components(claims, repeated);
+}
+
+bool check_regions(Claims& claims) {
+  const Encasement& e = claims.result;
+  const Region& asked = e.region;
+  const Region& used = e.region_used;
+  if (!claims.require(convex(asked), "The region is not a convex polygon, counter-clockwise.") ||
+      !claims.require(convex(used), "The region used is not a convex polygon, counter-clockwise."))
+    return false;
+
+  if (used.corners != asked.corners) {
+    bool larger = true;
+    for (const Vector& corner : asked.corners) larger = larger && contains(used, corner);
+    claims.require(larger, "The region used does not contain the region.");
+    // The distance from a convex set is a convex function, largest at corners.
+    Rational diameter = 0;
+    for (const Vector& a : asked.corners)
+      for (const Vector& b : asked.corners) {
+        const Vector d = difference(a, b);
+        diameter = std::max(diameter, dot(d, d));
+      }
+    const Rational allowed = diameter * Rational(0x1p-60);
+    bool close = true;
+    for (const Vector& corner : used.corners) {
+      bool near = contains(asked, corner);
+      for (std::size_t k = 0; k < asked.corners.size() && !near; ++k)
+        near = squared_distance(asked, k, corner) <= allowed;
+      close = close && near;
+    }
+    claims.require(close, "The region used exceeds the region by more than 2^-30 of its diameter.");
+  }
+
+  const std::size_t n = used.corners.size();
+  bool sides = true;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto c = e.lines[k].exact();
+    const auto at = [&](const Vector& p) {
+      return sgn(Rational(c[0] * p[0] + c[1] * p[1] + c[2]));
+    };
+    const bool side = at(used.corners[k]) == 0 && at(used.corners[(k + 1) % n]) == 0 &&
+                      at(used.corners[(k + 2) % n]) < 0;
+    sides = claims.require(side, "Line ", k, " is not side ", k, " of the region used.") && sides;
+  }
+  return sides;
+}
+
+}  // namespace encase::verification
