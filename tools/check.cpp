@@ -32,10 +32,10 @@ ExitCode run_check(const std::string& file, bool quiet) {
     for (const std::string& objection : verification.objections) objections += objection + "\n";
     if (!quiet)
       if (const Status status = print(objections)) return fail(*status);
-    return fail({Error::Code::BadInput,
-                 fmt::format("{} is not proved: {} objection{}", file,
-                             verification.objections.size(),
-                             verification.objections.size() == 1 ? "" : "s")});
+    return fail(
+        {Error::Code::BadInput,
+         fmt::format("{} is not proved: {} objection{}", file, verification.objections.size(),
+                     verification.objections.size() == 1 ? "" : "s")});
   }
   if (!quiet)
     if (const Status status = print(verdict(encasement.value(), verification.claims)))

@@ -41,7 +41,9 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
                 "perturb every coefficient c by up to DELTA (1 + |c|)")
       ->type_name("DELTA")
       ->check(CLI::PositiveNumber);
-  c->add_option("--seed", r.options.seed, "of the perturbation")->type_name("N")->capture_default_str();
+  c->add_option("--seed", r.options.seed, "of the perturbation")
+      ->type_name("N")
+      ->capture_default_str();
   c->add_option("--max-cells", r.options.max_cells, "stop at so many cells")
       ->type_name("N")
       ->check(CLI::PositiveNumber)
@@ -65,7 +67,8 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
   c->add_flag("-v", r.verbose, "report what each step did");
   c->footer(
       "FILE has lines `name: expression` or `expression`, with ^ for powers and exact decimals or\n"
-      "fractions, and `region: xmin xmax ymin ymax` or `region: polygon (x,y) (x,y) ...`; # starts a\n"
+      "fractions, and `region: xmin xmax ymin ymax` or `region: polygon (x,y) (x,y) ...`; # starts "
+      "a\n"
       "comment. With - for FILE of --json or --svg it goes to standard output and the report to\n"
       "standard error.\n\n" +
       std::string(kExitCodes));

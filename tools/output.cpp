@@ -40,7 +40,8 @@ Status check_writable(const std::string& path) {
   if (path.empty() || path == "-") return {};
   namespace fs = std::filesystem;
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) return io_error("cannot write " + path + ": it is a directory");
+  if (fs::is_directory(path, ignored))
+    return io_error("cannot write " + path + ": it is a directory");
   fs::path parent = fs::path(path).parent_path();
   if (parent.empty()) parent = ".";
   if (!fs::is_directory(parent, ignored))

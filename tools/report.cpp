@@ -12,30 +12,42 @@ namespace {
 
 const char* name(Outcome outcome) {
   switch (outcome) {
-    case Outcome::Certified: return "certified";
-    case Outcome::Degenerate: return "degenerate";
-    case Outcome::Undecided: return "undecided";
+    case Outcome::Certified:
+      return "certified";
+    case Outcome::Degenerate:
+      return "degenerate";
+    case Outcome::Undecided:
+      return "undecided";
   }
   return "";
 }
 
 const char* name(Location location) {
   switch (location) {
-    case Location::Inside: return "";
-    case Location::OnBoundary: return "on the boundary";
-    case Location::Outside: return "outside";
+    case Location::Inside:
+      return "";
+    case Location::OnBoundary:
+      return "on the boundary";
+    case Location::Outside:
+      return "outside";
   }
   return "";
 }
 
 const char* name(Unresolved::Kind kind) {
   switch (kind) {
-    case Unresolved::Kind::Contact: return "contact";
-    case Unresolved::Kind::SingularPoint: return "singular point";
-    case Unresolved::Kind::Concurrency: return "concurrency";
-    case Unresolved::Kind::SharedComponent: return "shared component";
-    case Unresolved::Kind::RepeatedComponent: return "repeated component";
-    case Unresolved::Kind::Budget: return "budget";
+    case Unresolved::Kind::Contact:
+      return "contact";
+    case Unresolved::Kind::SingularPoint:
+      return "singular point";
+    case Unresolved::Kind::Concurrency:
+      return "concurrency";
+    case Unresolved::Kind::SharedComponent:
+      return "shared component";
+    case Unresolved::Kind::RepeatedComponent:
+      return "repeated component";
+    case Unresolved::Kind::Budget:
+      return "budget";
   }
   return "";
 }
@@ -58,9 +70,8 @@ double radius(const Crossing& crossing) {
 std::string crossing_table(const Encasement& encasement) {
   const auto& crossings = encasement.crossings;
   if (crossings.empty()) return "";
-  const bool larger = std::any_of(crossings.begin(), crossings.end(), [](const Crossing& c) {
-    return c.location != Location::Inside;
-  });
+  const bool larger = std::any_of(crossings.begin(), crossings.end(),
+                                  [](const Crossing& c) { return c.location != Location::Inside; });
   std::size_t width = 6;
   for (const Crossing& c : crossings)
     width = std::max(width, encasement.curves[c.curves[0]].name.size() +
@@ -71,8 +82,8 @@ std::string crossing_table(const Encasement& encasement) {
                  "x", "y", "radius", "cell", larger ? "  location" : "");
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     const Crossing& c = crossings[i];
-    const std::string pair = encasement.curves[c.curves[0]].name + " & " +
-                             encasement.curves[c.curves[1]].name;
+    const std::string pair =
+        encasement.curves[c.curves[0]].name + " & " + encasement.curves[c.curves[1]].name;
     fmt::format_to(out, "{:>5}  {:<{}}  {:>23.17g}  {:>23.17g}  {:>8.1e}  {:>5}", i, pair, width,
                    c.point[0], c.point[1], radius(c),
                    c.cell >= 0 ? std::to_string(c.cell) : std::string("-"));
@@ -117,10 +128,11 @@ std::string report(const Encasement& encasement) {
     return std::count_if(encasement.cells.begin(), encasement.cells.end(),
                          [=](const Cell& c) { return c.state == state; });
   };
-  fmt::format_to(out, "{}: {}, {} in {}", name(encasement.outcome),
-                 counted(static_cast<std::int64_t>(encasement.curves.size()), "curve"),
-                 counted(static_cast<std::int64_t>(encasement.crossings.size()) - outside, "crossing"),
-                 counted(static_cast<std::int64_t>(encasement.cells.size()), "cell"));
+  fmt::format_to(
+      out, "{}: {}, {} in {}", name(encasement.outcome),
+      counted(static_cast<std::int64_t>(encasement.curves.size()), "curve"),
+      counted(static_cast<std::int64_t>(encasement.crossings.size()) - outside, "crossing"),
+      counted(static_cast<std::int64_t>(encasement.cells.size()), "cell"));
   if (const auto n = in_state(CellState::Relaxed)) fmt::format_to(out, ", {} relaxed", n);
   if (const auto n = in_state(CellState::Degenerate)) fmt::format_to(out, ", {} degenerate", n);
   if (const auto n = in_state(CellState::Undecided)) fmt::format_to(out, ", {} undecided", n);
@@ -129,8 +141,9 @@ std::string report(const Encasement& encasement) {
     fmt::format_to(out, "every coefficient is perturbed: delta {}, seed {}\n",
                    encasement.perturbation, encasement.seed);
   if (encasement.region_used.corners != encasement.region.corners)
-    text += "a side or corner of the region is not in generic position: a slightly larger polygon "
-            "is encased\n";
+    text +=
+        "a side or corner of the region is not in generic position: a slightly larger polygon "
+        "is encased\n";
   text += crossing_table(encasement);
   text += unresolved_list(encasement, encasement.degenerate, "degenerate");
   text += unresolved_list(encasement, encasement.undecided, "undecided");

@@ -86,8 +86,10 @@ void expect_roots_match(const Encasement& encasement, int first, int second,
       clear = true;
       for (const auto& [k, count] : roots_in) {
         const Box<2>& box = encasement.crossings[k].box;
-        if (contains(box, root)) holders.push_back(k);
-        else if (meets(box, root)) clear = false;
+        if (contains(box, root))
+          holders.push_back(k);
+        else if (meets(box, root))
+          clear = false;
       }
     }
     ASSERT_TRUE(clear) << "a root at the boundary of a crossing's box, " << text(root);
@@ -215,8 +217,9 @@ TEST_P(CgalMatchOfFile, HoldsForEveryPair) {
   const int n = static_cast<int>(encasement.curves.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
-      expect_roots_match(encasement, i, j,
-                         CgalRoots(encasement.curves[i].polynomial, encasement.curves[j].polynomial));
+      expect_roots_match(
+          encasement, i, j,
+          CgalRoots(encasement.curves[i].polynomial, encasement.curves[j].polynomial));
   expect_verified(encasement);
 }
 

@@ -23,7 +23,8 @@ Polynomial with_integer_coefficients(const encase::Polynomial<2>& f) {
   using Traits = CGAL::Polynomial_traits_d<Polynomial>;
   std::vector<std::pair<CGAL::Exponent_vector, Coefficient>> terms;
   for (const auto& term : f.terms()) {
-    const encase::Integer c = term.coefficient.get_num() * (denominator / term.coefficient.get_den());
+    const encase::Integer c =
+        term.coefficient.get_num() * (denominator / term.coefficient.get_den());
     terms.emplace_back(CGAL::Exponent_vector(term.exponent[0], term.exponent[1]),
                        Coefficient(c.get_str()));
   }
