@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/vectorized.hpp"
+
 namespace encase {
 namespace {
 
@@ -26,21 +28,59 @@ Stride stride_of(const std::array<int, K>& degree, int axis) {
 constexpr double kUnit = 0x1p-53;
 constexpr double kTiny = 0x1p-1060;  // more than what gradual underflow can lose in a net operation
 
-double largest(const std::vector<double>& b) {
+// The inner loops, over contiguous doubles.
+
+ENCASE_VECTORIZED double largest(const double* b, int count) {
   double m = 0;
-  for (double x : b) m = std::max(m, std::fabs(x));
+  for (int i = 0; i < count; ++i) {
+    const double x = std::fabs(b[i]);
+    m = m < x ? x : m;
+  }
   return m;
+}
+
+ENCASE_VECTORIZED void extremes(const double* b, int count, double* lowest, double* highest) {
+  double lo = b[0], hi = b[0];
+  for (int i = 0; i < count; ++i) {
+    lo = b[i] < lo ? b[i] : lo;
+    hi = b[i] > hi ? b[i] : hi;
+  }
+  *lowest = lo;
+  *highest = hi;
+}
+
+/// One block of de Casteljau's algorithm at 1/2: t, of n + 1 rows of `inner`, becomes the upper
+/// half, l the lower. After step r, row j of t holds the j-th point of the r-th generation, and the
+/// last rows hold the upper half's points already.
+ENCASE_VECTORIZED void halve_block(double* t, double* l, int n, int inner) {
+  for (int i = 0; i < inner; ++i) l[i] = t[i];
+  for (int r = 1; r <= n; ++r) {
+    const int end = (n - r + 1) * inner;
+    for (int j = 0; j < end; ++j) t[j] = 0.5 * (t[j] + t[j + inner]);
+    for (int i = 0; i < inner; ++i) l[r * inner + i] = t[i];
+  }
+}
+
+ENCASE_VECTORIZED void differences(const double* from, double* to, int count, int step,
+                                   double factor) {
+  for (int j = 0; j < count; ++j) to[j] = factor * (from[j + step] - from[j]);
+}
+
+ENCASE_VECTORIZED void weighted_sum(double alpha, const double* f, double beta, const double* g,
+                                    double* to, int count) {
+  for (int i = 0; i < count; ++i) to[i] = alpha * f[i] + beta * g[i];
+}
+
+double largest(const std::vector<double>& b) {
+  return largest(b.data(), static_cast<int>(b.size()));
 }
 
 }  // namespace
 
 template <int K>
 std::optional<Sign> sign_on_cube(const Bernstein<K>& net) {
-  double lo = net.b[0], hi = net.b[0];
-  for (double x : net.b) {
-    lo = std::min(lo, x);
-    hi = std::max(hi, x);
-  }
+  double lo, hi;
+  extremes(net.b.data(), static_cast<int>(net.b.size()), &lo, &hi);
   // The comparisons are exact, and false for a NaN radius; a NaN coefficient only comes with one.
   if (lo > net.radius) return Sign::Positive;
   if (hi < -net.radius) return Sign::Negative;
@@ -49,11 +89,8 @@ std::optional<Sign> sign_on_cube(const Bernstein<K>& net) {
 
 template <int K>
 bool drowned(const Bernstein<K>& net) {
-  double lo = net.b[0], hi = net.b[0];
-  for (double x : net.b) {
-    lo = std::min(lo, x);
-    hi = std::max(hi, x);
-  }
+  double lo, hi;
+  extremes(net.b.data(), static_cast<int>(net.b.size()), &lo, &hi);
   return !(lo < -net.radius && hi > net.radius) && !(lo > net.radius) && !(hi < -net.radius);
 }
 
@@ -71,24 +108,7 @@ void halve(const Bernstein<K>& net, int axis, Bernstein<K>* lower, Bernstein<K>*
   upper->b = net.b;
   const std::size_t block = static_cast<std::size_t>(s.count) * s.inner;
   for (int o = 0; o < s.outer; ++o) {
-    double* t = upper->b.data() + o * block;
-    double* l = lower->b.data() + o * block;
-    std::copy_n(t, s.inner, l);
-    // De Casteljau: after step r, entry j of t holds the j-th point of the r-th generation, and
-    // the last entries hold the upper half's points already.
-    if (s.inner == 1) {
-      for (int r = 1; r <= n; ++r) {
-        for (int j = 0; j <= n - r; ++j) t[j] = 0.5 * (t[j] + t[j + 1]);
-        l[r] = t[0];
-      }
-    } else {
-      for (int r = 1; r <= n; ++r) {
-        const int end = (n - r + 1) * s.inner;
-        const int step = s.inner;
-        for (int j = 0; j < end; ++j) t[j] = 0.5 * (t[j] + t[j + step]);
-        std::copy_n(t, s.inner, l + static_cast<std::size_t>(r) * s.inner);
-      }
-    }
+    halve_block(upper->b.data() + o * block, lower->b.data() + o * block, n, s.inner);
   }
   // Each of at most n averages rounds once, relative to the largest coefficient; averages of exact
   // coefficients do not enlarge the radius.
@@ -110,13 +130,12 @@ void differentiate(const Bernstein<K>& net, int axis, Bernstein<K>* out) {
   out->b.resize(static_cast<std::size_t>(s.outer) * n * s.inner);
   // d/ds on [-1,1] is half of d/du on [0,1].
   const double factor = 0.5 * n;
-  double m = 0;
   for (int o = 0; o < s.outer; ++o) {
     const double* from = net.b.data() + static_cast<std::size_t>(o) * s.count * s.inner;
     double* to = out->b.data() + static_cast<std::size_t>(o) * n * s.inner;
-    for (int j = 0; j < n * s.inner; ++j) to[j] = factor * (from[j + s.inner] - from[j]);
+    differences(from, to, n * s.inner, s.inner, factor);
   }
-  m = largest(out->b);
+  const double m = largest(out->b);
   // The difference of two coefficients errs by 2 radius, and two operations round.
   out->radius = 1.0000001 * (2 * factor * net.radius + 3 * kUnit * m) + kTiny;
 }
@@ -150,7 +169,7 @@ void combine(double alpha, const Bernstein<K>& f, double beta, const Bernstein<K
   out->degree = f.degree;
   out->b.resize(f.b.size());
   const double magnitude = std::fabs(alpha) * largest(f.b) + std::fabs(beta) * largest(g.b);
-  for (std::size_t i = 0; i < f.b.size(); ++i) out->b[i] = alpha * f.b[i] + beta * g.b[i];
+  weighted_sum(alpha, f.b.data(), beta, g.b.data(), out->b.data(), static_cast<int>(f.b.size()));
   out->radius = 1.0000001 * (std::fabs(alpha) * f.radius + std::fabs(beta) * g.radius +
                              3 * kUnit * magnitude) +
                 kTiny;

@@ -145,7 +145,7 @@ bool excluded(const SystemNets<D>& nets) {
 }
 
 template <int D>
-std::optional<Contraction<D>> contraction(const SystemNets<D>& nets) {
+std::optional<Contraction<D>> contraction(const SystemNets<D>& nets, double quality) {
   const Matrix<D> jacobian = mean_jacobian<D>(nets);
   Matrix<D> y = adjugate(jacobian);
   double determinant = 0;
@@ -161,7 +161,7 @@ std::optional<Contraction<D>> contraction(const SystemNets<D>& nets) {
       result.bound[i][j] = deviation(derivative, i == j ? 1.0 : 0.0);
       if (!(result.bound[i][j] < 1e6)) return std::nullopt;
     }
-    if (!(result.bound[i][i] < 1)) return std::nullopt;
+    if (!(result.bound[i][i] < quality)) return std::nullopt;
   }
   // E v < v for a positive v bounds the spectral radius of E below 1 (Perron, Frobenius). The fixed
   // point of v = 1 + E v is such a vector; a few iterations come close enough when there is one.
@@ -173,7 +173,7 @@ std::optional<Contraction<D>> contraction(const SystemNets<D>& nets) {
     for (int i = 0; i < D; ++i) {
       double sum = 0;
       for (int j = 0; j < D; ++j) sum += result.bound[i][j] * v[j];
-      proved = proved && sum * kUp < v[i];
+      proved = proved && sum * kUp < quality * v[i];
       next[i] = 1 + sum;
     }
     if (proved) {
@@ -323,7 +323,7 @@ bool no_relevant_critical_point(const FilteredPolynomial<2>& f, const Box<2>& bo
 
 #define ENCASE_INSTANTIATE(D)                                                                     \
   template bool excluded<D>(const SystemNets<D>&);                                                \
-  template std::optional<Contraction<D>> contraction<D>(const SystemNets<D>&);                    \
+  template std::optional<Contraction<D>> contraction<D>(const SystemNets<D>&, double);            \
   template std::optional<Sign> sign_on_box(const FilteredPolynomial<D>&, const Box<D>&, Kernel&); \
   template bool no_common_zero<D>(const System<D>&, const Box<D>&, Kernel&);                      \
   template bool at_most_one_zero<D>(const System<D>&, const Box<D>&, Kernel&);                    \

@@ -37,7 +37,7 @@ struct Contraction {
 };
 
 template <int D>
-std::optional<Contraction<D>> contraction(const SystemNets<D>& nets);
+std::optional<Contraction<D>> contraction(const SystemNets<D>& nets, double quality = 1.0);
 
 /// No point of the box is both a zero of f and of its gradient, and none is a local maximum of |f|:
 /// a partial derivative or a combination of both keeps a sign, or f keeps a sign and f f_xx > 0,

@@ -25,8 +25,12 @@ double gamma(int roundings, int bits) { return 1.01 * roundings * std::ldexp(1.0
 template <int D>
 double underflow(const Point<D>& magnitude, int degree) {
   double bound = 0x1p-960;
-  for (double x : magnitude) bound *= std::pow(1.0 + x, degree);
-  return bound;
+  for (double x : magnitude) {
+    double power = 1.0 + x;
+    for (int rest = degree; rest > 0; rest /= 2, power *= power)
+      if (rest % 2) bound *= power;
+  }
+  return bound * (1 + 0x1p-40);
 }
 
 constexpr int kCoefficientRoundings = 2;  // mpq -> double truncates: at most one ulp
@@ -194,7 +198,7 @@ FilteredPolynomial<D>::FilteredPolynomial(Polynomial<D> exact)
 
 template <int D>
 template <class Number>
-std::vector<Number> FilteredPolynomial<D>::coefficients(int bits) const {
+const std::vector<Number>& FilteredPolynomial<D>::coefficients(int bits) const {
   if constexpr (std::is_same_v<Number, double>) {
     return coefficients_;
   } else {
@@ -423,21 +427,22 @@ template <int D>
 template <class Number, class Coordinate>
 double FilteredPolynomial<D>::horner(const std::array<Coordinate, D>& point, int bits) const {
   const int n = degree_ + 1;
-  std::vector<Number> level = coefficients<Number>(bits);
-  std::size_t size = level.size();
+  const std::vector<Number>& source = coefficients<Number>(bits);
+  std::size_t size = source.size() / n;
+  std::vector<Number> level(size, make_number<Number>(bits));
   Number x = make_number<Number>(bits), sum = x;
-  for (int axis = D - 1; axis >= 0; --axis) {
+  for (int axis = D - 1; axis >= 0; --axis, size /= n) {
     assign(x, point[axis]);
-    size /= n;
+    const Number* from = axis == D - 1 ? source.data() : level.data();
     for (std::size_t i = 0; i < size; ++i) {
       // Entry i belongs to exponents of the earlier variables, which bound the degree in this one.
       int used = 0;
       for (std::size_t rest = i; rest > 0; rest /= n) used += static_cast<int>(rest % n);
       if (used > degree_) continue;
-      sum = level[i * n + (degree_ - used)];
+      sum = from[i * n + (degree_ - used)];
       for (int k = degree_ - used - 1; k >= 0; --k) {
         multiply(sum, x);
-        add(sum, level[i * n + k]);
+        add(sum, from[i * n + k]);
       }
       level[i] = sum;
     }
@@ -468,6 +473,11 @@ typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::evaluate(const Poin
 }
 
 template <int D>
+double FilteredPolynomial<D>::approximate(const Point<D>& point) const {
+  return horner<double>(point, Kernel::kDoubleBits);
+}
+
+template <int D>
 Point<D> FilteredPolynomial<D>::gradient(const Point<D>& point) const {
   // Forward differentiation through Horner's rule: every level carries the value and D derivatives.
   struct Jet {
@@ -482,8 +492,10 @@ Point<D> FilteredPolynomial<D>::gradient(const Point<D>& point) const {
     const double x = point[axis];
     size /= n;
     for (std::size_t i = 0; i < size; ++i) {
+      int used = 0;
+      for (std::size_t rest = i; rest > 0; rest /= n) used += static_cast<int>(rest % n);
       Jet sum;
-      for (int k = degree_; k >= 0; --k) {
+      for (int k = degree_ - used; k >= 0; --k) {
         Jet term;
         if (axis == D - 1)
           term.value = coefficients_[i * n + k];

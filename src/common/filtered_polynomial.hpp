@@ -66,7 +66,8 @@ class FilteredPolynomial {
   };
   Value evaluate(const Point<D>& point, int bits) const;
 
-  /// An approximate (scaled) gradient, for heuristics and Newton steps.
+  /// Approximate (scaled) value and gradient, for heuristics and Newton steps.
+  double approximate(const Point<D>& point) const;
   Point<D> gradient(const Point<D>& point) const;
 
   /// The exact sign at a rational point: doubles, MPFR, then exact arithmetic. Never fails.
@@ -78,7 +79,7 @@ class FilteredPolynomial {
  private:
   struct Cache;
   template <class Number>
-  std::vector<Number> coefficients(int bits) const;
+  const std::vector<Number>& coefficients(int bits) const;
   template <class Number, class Coordinate>
   double horner(const std::array<Coordinate, D>& point, int bits) const;
   Value with_error(double value, const Point<D>& magnitude, int roundings, int bits) const;

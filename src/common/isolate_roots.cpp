@@ -8,44 +8,59 @@
 namespace encase {
 namespace {
 
+/// What the search asks of a contraction: a checker that recomputes it on a somewhat different box
+/// has room, and radii are at most some times the residual.
+constexpr double kQuality = 0.7;
+
 double ulp(double x) {
   x = std::fabs(x);
   return std::nextafter(x, HUGE_VAL) - x;
 }
 
-/// A zero near a box: a point that Newton's iteration on doubles settles on.
+/// Solves J(x) d = F for the approximate Jacobian at x; false where it is singular.
+template <int D>
+bool newton_step(const System<D>& system, const Point<D>& x, const std::array<double, D>& value,
+                 Point<D>* d) {
+  // Gaussian elimination with partial pivoting on [J | F].
+  std::array<std::array<double, D + 1>, D> m;
+  for (int i = 0; i < D; ++i) {
+    const Point<D> g = system[i]->gradient(x);
+    for (int j = 0; j < D; ++j) m[i][j] = g[j];
+    m[i][D] = value[i];
+  }
+  for (int c = 0; c < D; ++c) {
+    int pivot = c;
+    for (int r = c + 1; r < D; ++r)
+      if (std::fabs(m[r][c]) > std::fabs(m[pivot][c])) pivot = r;
+    std::swap(m[c], m[pivot]);
+    if (m[c][c] == 0) return false;
+    for (int r = 0; r < D; ++r) {
+      if (r == c) continue;
+      const double factor = m[r][c] / m[c][c];
+      for (int k = c; k <= D; ++k) m[r][k] -= factor * m[c][k];
+    }
+  }
+  for (int i = 0; i < D; ++i) (*d)[i] = m[i][D] / m[i][i];
+  return true;
+}
+
+/// A zero near x: a point that Newton's iteration on doubles settles on, within `reach` of x.
 template <int D>
 std::optional<Point<D>> newton(const System<D>& system, Point<D> x, double reach) {
   const Point<D> start = x;
   double last_step = HUGE_VAL;
   for (int step = 0; step < 12; ++step) {
-    // Gaussian elimination with partial pivoting on [J | F].
-    std::array<std::array<double, D + 1>, D> m;
-    for (int i = 0; i < D; ++i) {
-      const Point<D> g = system[i]->gradient(x);
-      for (int j = 0; j < D; ++j) m[i][j] = g[j];
-      m[i][D] = system[i]->evaluate(x, Kernel::kDoubleBits).value;
-    }
-    for (int c = 0; c < D; ++c) {
-      int pivot = c;
-      for (int r = c + 1; r < D; ++r)
-        if (std::fabs(m[r][c]) > std::fabs(m[pivot][c])) pivot = r;
-      std::swap(m[c], m[pivot]);
-      if (m[c][c] == 0) return std::nullopt;
-      for (int r = 0; r < D; ++r) {
-        if (r == c) continue;
-        const double factor = m[r][c] / m[c][c];
-        for (int k = c; k <= D; ++k) m[r][k] -= factor * m[c][k];
-      }
-    }
+    std::array<double, D> value;
+    for (int i = 0; i < D; ++i) value[i] = system[i]->approximate(x);
+    Point<D> d;
+    if (!newton_step<D>(system, x, value, &d)) return std::nullopt;
     double size = 0;
     for (int i = 0; i < D; ++i) {
-      const double d = m[i][D] / m[i][i];
-      x[i] -= d;
-      size = std::max(size, std::fabs(d));
+      x[i] -= d[i];
+      size = std::max(size, std::fabs(d[i]));
       if (!(std::fabs(x[i] - start[i]) <= reach)) return std::nullopt;
     }
-    if (size == 0 || (step > 3 && size >= 0.5 * last_step)) break;
+    if (size == 0 || (step > 2 && size >= 0.5 * last_step)) break;
     last_step = size;
   }
   return x;
@@ -63,9 +78,10 @@ std::optional<Box<D>> enclose_root(const System<D>& system, const Box<D>& around
   double best_width = HUGE_VAL;
   for (int bits = kernel.start_bits; bits > 0; bits = kernel.next(bits)) {
     for (int step = 0; step < 6; ++step) {
-      std::array<double, D> correction{}, residual{};
+      std::array<double, D> correction{}, residual{}, value{};
       for (int i = 0; i < D; ++i) {
         const auto v = system[i]->evaluate(x, bits);
+        value[i] = v.value;
         for (int k = 0; k < D; ++k) {
           const double y = c.preconditioner[k][i];
           correction[k] += y * v.value;
@@ -73,13 +89,15 @@ std::optional<Box<D>> enclose_root(const System<D>& system, const Box<D>& around
         }
       }
       for (int k = 0; k < D; ++k) residual[k] = (residual[k] + std::fabs(correction[k])) * kUp;
-      // The smallest multiple t of the weights v that E v < v makes a Krawczyk radius, doubled
-      // twice to leave a checker room, and no less than some ulps.
+      // The smallest multiple t of the weights v that makes a Krawczyk radius (as E v < v), 16 times
+      // enlarged to leave a checker room, and no less than 16 ulps in any coordinate.
       double t = 0;
       for (int k = 0; k < D; ++k) {
         double image = 0;
         for (int j = 0; j < D; ++j) image += c.bound[k][j] * c.weights[j];
-        t = std::max(t, residual[k] / (c.weights[k] - image * kUp));
+        const double half = 0.5 * around.width(k);
+        t = std::max(t, 16 * residual[k] / (c.weights[k] - image * kUp));
+        t = std::max(t, 16 * ulp(x[k]) / (c.weights[k] * half));
       }
       Box<D> box;
       std::array<double, D> radius;
@@ -87,15 +105,14 @@ std::optional<Box<D>> enclose_root(const System<D>& system, const Box<D>& around
       double relative_width = 0;
       for (int k = 0; k < D && inside; ++k) {
         const double half = 0.5 * around.width(k);
-        // A power of two, so that x is exactly the centre.
-        const double least = std::max(8 * ulp(x[k]), 4 * t * c.weights[k] * half * kUp);
-        int e;
-        std::frexp(least, &e);
-        const double r = std::ldexp(1.0, e);
+        // A multiple of some ulps, so that x is exactly the centre.
+        const double wanted = t * c.weights[k] * half * kUp;
+        const double unit = 4 * ulp(std::fabs(x[k]) + wanted);
+        const double r = std::ceil(wanted / unit) * unit;
         box.lo[k] = x[k] - r;
         box.hi[k] = x[k] + r;
         inside = around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k];
-        // What is proved must hold for a box inside the rounded one.
+        // What is proved holds for a box inside the rounded one.
         radius[k] = (r - 2 * ulp(x[k])) / half * (1 - 0x1p-40);
         relative_width = std::max(relative_width, r / half);
       }
@@ -111,20 +128,22 @@ std::optional<Box<D>> enclose_root(const System<D>& system, const Box<D>& around
           best_width = relative_width;
         }
       }
-      // A Newton step with the preconditioner, as long as it moves the point.
+      // A Newton step, as long as it moves the point.
+      Point<D> d;
+      if (!newton_step<D>(system, x, value, &d)) break;
       bool moved = false;
       for (int k = 0; k < D; ++k) {
-        const double next = x[k] - correction[k] * 0.5 * around.width(k);
+        const double next = x[k] - d[k];
         moved = moved || std::fabs(next - x[k]) > 2 * ulp(x[k]);
         x[k] = next;
       }
-      if (!moved) break;
+      if (!moved || bits <= Kernel::kDoubleBits) break;
       for (int k = 0; k < D; ++k)
         if (!(around.lo[k] < x[k] && x[k] < around.hi[k])) return best;
     }
     if (best) {
       double wide = 0;
-      for (int k = 0; k < D; ++k) wide = std::max(wide, best->width(k) / (32 * ulp(best->hi[k])));
+      for (int k = 0; k < D; ++k) wide = std::max(wide, best->width(k) / (64 * ulp(best->hi[k])));
       if (wide <= 1) break;
     }
     if (bits >= 4 * Kernel::kDoubleBits) break;
@@ -163,7 +182,7 @@ RootIsolation<D> isolate_roots(const System<D>& system, const Box<D>& box,
       }
       for (int i = 0; i < D; ++i)
         system[i]->expand(around, degree, kernel.start_bits, kernel, &around_nets[i]);
-      wider = contraction<D>(around_nets);
+      wider = contraction<D>(around_nets, kQuality);
       if (!wider) return std::nullopt;
       valid = &*wider;
     }
@@ -184,7 +203,7 @@ RootIsolation<D> isolate_roots(const System<D>& system, const Box<D>& box,
       ++kernel.decisions.by_double;
       return cover::kExcluded;
     }
-    if (const auto c = contraction<D>(nets))
+    if (const auto c = contraction<D>(nets, kQuality))
       if (const auto k = root_near(leaf, *c)) return *k;
     int axis = 0;
     double most = -1;
