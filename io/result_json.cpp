@@ -477,8 +477,9 @@ std::array<int, 2> read_pair(const Node& node, std::size_t curves) {
 
 std::vector<int> read_tokens(const Node& node, std::size_t items) {
   return node.map([&](const Node& token) {
-    return static_cast<int>(
-        token.integer(cover::kUnresolved, static_cast<std::int64_t>(items) - 1));
+    const auto value = token.integer(cover::kUnresolved, static_cast<std::int64_t>(items) - 1);
+    if (value == cover::kSplitZ) token.fail("a plane cover is not cut in z");
+    return static_cast<int>(value);
   });
 }
 

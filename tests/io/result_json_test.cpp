@@ -42,7 +42,7 @@ Encasement full_sample() {
   e.line_crossings[1].hi = 1e300;
   e.critical_regions[0].sign = Sign::Positive;
   e.critical_regions[0].boxes.push_back({{0.1, 0.2}, {0.3, 0.4}});
-  e.crossing_covers[0].tokens = {-1, -2, -3, -4, -5, 0, 1};
+  e.crossing_covers[0].tokens = {-1, -2, -4, -5, -6, 0, 1};
   Unresolved place;
   place.kind = Unresolved::Kind::Concurrency;
   place.box = {{0.1, 0.2}, {0.1, 0.3}};
@@ -308,7 +308,8 @@ TEST(ResultJson, RefusesWhatRefersToNothingOrIsOutOfRange) {
   EXPECT_TRUE(refused([](Json& j) { j["cells"][0]["branches"][0] = {0, 1}; }));
   EXPECT_TRUE(refused([](Json& j) { j["cells"][0]["loop_certificates"][0]["critical"] = 1; }));
   EXPECT_TRUE(refused([](Json& j) { j["critical"][0]["sign"] = 2; }));
-  EXPECT_TRUE(refused([](Json& j) { j["covers"]["crossings"][0]["tokens"][0] = -6; }));
+  EXPECT_TRUE(refused([](Json& j) { j["covers"]["crossings"][0]["tokens"][0] = -7; }));
+  EXPECT_TRUE(refused([](Json& j) { j["covers"]["crossings"][0]["tokens"][0] = cover::kSplitZ; }));
   EXPECT_TRUE(refused([](Json& j) { j["covers"]["critical"][0]["tokens"][0] = 1; }));
   EXPECT_TRUE(refused([](Json& j) { j["covers"]["critical"][0]["tokens"][0] = 1ull << 63; }));
   EXPECT_TRUE(refused([](Json& j) { j["degenerate"][0]["curves"][0] = 2; }));
