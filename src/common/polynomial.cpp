@@ -138,6 +138,15 @@ template <int D>
 Polynomial<D> Polynomial<D>::power(int exponent) const {
   if (exponent == 0) return constant(1);
   if (exponent == 1 || is_zero()) return *this;
+  if (terms_.size() == 1) {
+    Polynomial result = *this;
+    Term& term = result.terms_.front();
+    const unsigned long n = static_cast<unsigned long>(exponent);
+    mpz_pow_ui(term.coefficient.get_num_mpz_t(), term.coefficient.get_num_mpz_t(), n);
+    mpz_pow_ui(term.coefficient.get_den_mpz_t(), term.coefficient.get_den_mpz_t(), n);
+    for (int& e : term.exponent) e *= exponent;
+    return result;
+  }
   const FlintContext<D> context;
   FlintPolynomial<D> base(context), result(context);
   const Integer denominator = base.set(*this);

@@ -57,6 +57,8 @@ void check_ring_laws() {
     EXPECT_EQ((f - g)(p), f(p) - g(p));
     EXPECT_EQ(f * (g + h), f * g + f * h);
     EXPECT_EQ(h.power(3), h * h * h);
+    const auto monomial = random_polynomial<D>(generator, 1, 4);
+    EXPECT_EQ(monomial.power(3), monomial * monomial * monomial);
     EXPECT_TRUE((f + -f).is_zero());
     for (int axis = 0; axis < D; ++axis)
       EXPECT_EQ((f * h).derivative(axis), f.derivative(axis) * h + f * h.derivative(axis));
