@@ -142,8 +142,19 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomia
     }
     Piece lower, upper;
     halve(piece.net, 0, &lower.net, &upper.net);
-    // A cut at which f may vanish would settle neither side: take one beside it.
-    bool cut = std::fabs(upper.net.b.front()) > upper.net.radius;
+    // A cut at which f may vanish would settle neither side: sharpen the net, then cut elsewhere.
+    const auto nonzero_cut = [&] {
+      return std::fabs(upper.net.b.front()) > upper.net.radius &&
+             std::fabs(lower.net.b.back()) > lower.net.radius;
+    };
+    bool cut = nonzero_cut();
+    if (!cut && sharpen(f, line, &piece, kernel, [&](const Bernstein<1>& net) {
+          halve(net, 0, &lower.net, &upper.net);
+          return nonzero_cut();
+        })) {
+      stack.push_back(std::move(piece));
+      continue;
+    }
     for (const int sixteenths : {7, 9, 6, 10}) {
       if (cut) break;
       const double at = piece.lo + (piece.hi - piece.lo) * (sixteenths / 16.0);
@@ -154,8 +165,7 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomia
       lower.bits = upper.bits = std::max(piece.bits, kernel.start_bits);
       f.restrict_to(SegmentChart::of_line(line, piece.lo, at), lower.bits, kernel, &lower.net);
       f.restrict_to(SegmentChart::of_line(line, at, piece.hi), upper.bits, kernel, &upper.net);
-      cut = std::fabs(upper.net.b.front()) > upper.net.radius &&
-            std::fabs(lower.net.b.back()) > lower.net.radius;
+      cut = nonzero_cut();
     }
     if (!cut) return std::nullopt;
     lower.lo = piece.lo;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "2d/critical_regions.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/box_tests.hpp"
+
+namespace encase {
+
+std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
+  std::vector<int> parent(boxes.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto find = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  // A sweep over the lower x bounds; boxes leave the front when they end before the sweep.
+  std::vector<int> order(boxes.size()), front;
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return boxes[a].lo[0] != boxes[b].lo[0] ? boxes[a].lo[0] < boxes[b].lo[0] : a < b;
+  });
+  for (const int i : order) {
+    std::erase_if(front, [&](int j) { return boxes[j].hi[0] < boxes[i].lo[0]; });
+    for (const int j : front)
+      if (boxes[j].meets(boxes[i])) parent[find(j)] = find(i);
+    front.push_back(i);
+  }
+  std::vector<int> number(boxes.size(), -1), component(boxes.size());
+  int count = 0;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    int& n = number[find(static_cast<int>(i))];
+    if (n < 0) n = count++;
+    component[i] = n;
+  }
+  return component;
+}
+
+CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, const Box<2>& box,
+                                 const std::vector<Line>& half_planes,
+                                 const SubdivisionLimits& limits, Kernel& kernel) {
+  CriticalRegions result;
+  result.root_box = subdivision_root(box);
+  // Small regions are cut by fewer lines but reached by more rays, and most saddles drop out on the
+  // way; a region is not split below this width once f has a sign on it.
+  const double fine = result.root_box.largest_width() * 0x1p-6;
+  constexpr int kRegion = 0;
+  const auto visit = [&](const std::array<Bernstein<2>, 1>& nets, const Box<2>& leaf) {
+    if (no_relevant_critical_point(nets[0])) {
+      ++kernel.decisions.by_double;
+      return cover::kExcluded;
+    }
+    // Across the axis along which f changes more, weighted by the width.
+    const double x = variation(nets[0], 0) * leaf.width(0),
+                 y = variation(nets[0], 1) * leaf.width(1);
+    const int axis = x >= y ? 0 : 1;
+    if (leaf.width(axis) <= fine && sign_on_cube(nets[0])) {
+      ++kernel.decisions.by_double;
+      return kRegion;
+    }
+    return cover::kSplitX - axis;
+  };
+  const Subdivision<2> tree =
+      subdivide<2, 1>({&f}, result.root_box, half_planes, limits, kernel, visit);
+  result.boxes = tree.size();
+  result.tokens = tree.tokens();
+  result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
+
+  const std::vector<Box<2>> boxes = leaves(result.root_box, result.tokens, kRegion);
+  const std::vector<int> component = connected_components(boxes);
+  std::size_t next = 0;
+  for (int& token : result.tokens) {
+    if (token != kRegion) continue;
+    const std::size_t k = component[next];
+    if (k >= result.regions.size()) {
+      // Touching boxes share points, so f has the same sign on a whole component.
+      const auto sign = sign_on_box(f, boxes[next], kernel);
+      result.regions.push_back({curve, sign.value_or(Sign::Zero), {}});
+    }
+    result.regions[k].boxes.push_back(boxes[next]);
+    token = static_cast<int>(k);
+    ++next;
+  }
+  return result;
+}
+
+}  // namespace encase
