@@ -103,4 +103,24 @@ inline Encasement circle_and_line() {
   return e;
 }
 
+/// One curve in [-1,1]^2 (sides y = -1, x = 1, y = 1, x = -1) with one branch.
+inline Encasement one_branch(Polynomial<2> curve, LineCrossing from, LineCrossing to) {
+  Encasement e;
+  e.outcome = Outcome::Certified;
+  e.input = {{"c0", std::move(curve)}};
+  e.curves = {{e.input[0].name, e.input[0].polynomial, {0}}};
+  e.region = square();
+  e.region_used = e.region;
+  e.lines = {line(0, -1, -1), line(1, 0, -1), line(0, 1, -1), line(-1, 0, -1)};
+  e.line_crossings = {from, to};
+  Cell cell;
+  cell.state = CellState::Certified;
+  cell.vertices = {corner(3, 0, -1, -1), corner(0, 1, 1, -1), corner(1, 2, 1, 1),
+                   corner(2, 3, -1, 1)};
+  cell.word = {0, 1};
+  cell.branches = {{0, 0, 1}};
+  e.cells = {cell};
+  return e;
+}
+
 }  // namespace encase::sample

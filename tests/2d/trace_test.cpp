@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "2d/trace.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/filtered_polynomial.hpp"
+#include "tests/sample_encasements.hpp"
+
+namespace encase {
+namespace {
+
+double distance(const Point<2>& p, const Point<2>& q) {
+  return std::hypot(q[0] - p[0], q[1] - p[1]);
+}
+
+double distance(const Point<2>& p, const Polyline& line) {
+  double least = distance(p, line.front());
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const Point<2>&a = line[k - 1], &b = line[k];
+    const double l = distance(a, b);
+    if (l == 0) continue;
+    const double t = ((p[0] - a[0]) * (b[0] - a[0]) + (p[1] - a[1]) * (b[1] - a[1])) / (l * l);
+    const double s = std::clamp(t, 0.0, 1.0);
+    least = std::min(least, distance(p, {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}));
+  }
+  return least;
+}
+
+/// The largest |f| / |grad f| over the points: how far they are from the curve.
+double residual(const Polynomial<2>& polynomial, const Polyline& line) {
+  const FilteredPolynomial<2> f(polynomial);
+  double largest = 0;
+  for (const Point<2>& p : line) {
+    const Point<2> g = f.gradient(p);
+    largest = std::max(largest, std::fabs(f.approximate(p)) / std::hypot(g[0], g[1]));
+  }
+  return largest;
+}
+
+TEST(TraceBranch, RunsFromTheFirstCrossingToTheSecondWithinTheTolerance) {
+  const Encasement e = sample::circle_and_line();
+  const double tolerance = 1e-4;
+  const Branch& branch = e.cells[0].branches[0];
+  const Polyline line = trace_branch(e, 0, branch, tolerance);
+  EXPECT_NEAR(line.front()[0], 0.0625, 1e-15);
+  EXPECT_NEAR(line.front()[1], -std::sqrt(0.5 - 0.0625 * 0.0625), tolerance);
+  EXPECT_NEAR(line.back()[1], std::sqrt(0.5 - 0.0625 * 0.0625), tolerance);
+  EXPECT_LE(residual(e.curves[0].polynomial, line), tolerance / 50);
+  for (const Point<2>& p : line) EXPECT_LE(p[0], 0.0625 + 1e-12);
+  // The left part of the circle, all of it: its points lie close to the polyline.
+  for (double angle = 1.7; angle < 4.58; angle += 0.001)
+    ASSERT_LE(distance({std::sqrt(0.5) * std::cos(angle), std::sqrt(0.5) * std::sin(angle)}, line),
+              1.5 * tolerance);
+  // An arc of radius r and sagitta s has a chord of sqrt(8 r s): not many more points than needed.
+  const double chord = std::sqrt(8 * std::sqrt(0.5) * tolerance);
+  EXPECT_LE(line.size(), 4 * 3.0 * std::sqrt(0.5) / chord);
+}
+
+TEST(TraceBranch, FollowsABranchThatItsBisectorCrossesThreeTimes) {
+  // x = 4 y^3 - 2 y: an S that folds back twice.
+  const Encasement e =
+      sample::one_branch(sample::polynomial({{{1, 0}, 1}, {{0, 3}, -4}, {{0, 1}, 2}}),
+                         {3, 0, -1, -0.8}, {1, 0, 0.8, 1});
+  const double tolerance = 1e-3;
+  const Polyline line = trace_branch(e, 0, e.cells[0].branches[0], tolerance);
+  EXPECT_LE(residual(e.curves[0].polynomial, line), tolerance / 50);
+  for (std::size_t k = 1; k < line.size(); ++k) ASSERT_LT(line[k - 1][1], line[k][1]);
+  for (double y = line.front()[1]; y < line.back()[1]; y += 1e-3)
+    ASSERT_LE(distance({4 * y * y * y - 2 * y, y}, line), 1.5 * tolerance) << y;
+}
+
+TEST(TraceBranch, FollowsAHairpinWithCloseEnds) {
+  // x = 10000 y^2 - 0.9: enters and leaves through x = 1, 0.028 apart.
+  const Encasement e = sample::one_branch(
+      sample::polynomial({{{1, 0}, -1}, {{0, 2}, 10000}, {{0, 0}, Rational(-9, 10)}}),
+      {1, 0, -0.02, -0.01}, {1, 0, 0.01, 0.02});
+  for (const double tolerance : {1e-2, 1e-3, 1e-5}) {
+    const Polyline line = trace_branch(e, 0, e.cells[0].branches[0], tolerance);
+    for (double y = line.front()[1]; y < line.back()[1]; y += 1e-4)
+      ASSERT_LE(distance({10000 * y * y - 0.9, y}, line), 1.5 * tolerance) << y;
+    for (std::size_t k = 1; k < line.size(); ++k) ASSERT_LT(line[k - 1][1], line[k][1]);
+  }
+}
+
+TEST(TraceBranch, SeesAWiggleBetweenParallelTangents) {
+  // y = T_9(x) / 20 from left to right: tangents at the ends and the middle hide the waves between.
+  Polynomial<2> before = Polynomial<2>::constant(1), wave = Polynomial<2>::variable(0);
+  for (int k = 2; k <= 9; ++k) {
+    const Polynomial<2> next =
+        Polynomial<2>::constant(2) * Polynomial<2>::variable(0) * wave - before;
+    before = wave;
+    wave = next;
+  }
+  const Encasement e =
+      sample::one_branch(Polynomial<2>::constant(20) * Polynomial<2>::variable(1) - wave,
+                         {3, 0, -0.1, 0}, {1, 0, 0, 0.1});
+  const double tolerance = 1e-3;
+  const Polyline line = trace_branch(e, 0, e.cells[0].branches[0], tolerance);
+  for (double x = -1; x < 1; x += 1e-3)
+    ASSERT_LE(distance({x, std::cos(9 * std::acos(x)) / 20}, line), 1.5 * tolerance) << x;
+}
+
+TEST(TraceBranch, TakesTheChordOfALine) {
+  const Encasement e = sample::circle_and_line();
+  EXPECT_EQ(trace_branch(e, 1, e.cells[1].branches[1], 1e-6).size(), 2u);
+}
+
+TEST(TraceBranch, EndsForAnyTolerance) {
+  const Encasement e = sample::circle_and_line();
+  EXPECT_LE(trace_branch(e, 0, e.cells[0].branches[0], 0).size(), 100000u);
+  EXPECT_EQ(trace_branch(e, 0, e.cells[0].branches[0], 1e9).size(), 2u);
+}
+
+TEST(TraceCurve, ClosesALoopAcrossCells) {
+  const Encasement e = sample::circle_and_line();
+  const auto chains = trace_curve(e, 0, 1e-3);
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_EQ(chains[0].front(), chains[0].back());
+  double length = 0;
+  for (std::size_t k = 1; k < chains[0].size(); ++k) {
+    EXPECT_GT(distance(chains[0][k - 1], chains[0][k]), 0);
+    length += distance(chains[0][k - 1], chains[0][k]);
+  }
+  EXPECT_NEAR(length, 2 * 3.14159265 * std::sqrt(0.5), 0.01);
+}
+
+TEST(TraceCurve, JoinsAnOpenCurveFromBoundaryToBoundary) {
+  Encasement e = sample::circle_and_line();
+  // Against the direction of its neighbour.
+  std::swap(e.cells[0].branches[1].from, e.cells[0].branches[1].to);
+  const auto chains = trace_curve(e, 1, 1e-3);
+  ASSERT_EQ(chains.size(), 1u);
+  ASSERT_EQ(chains[0].size(), 3u);
+  EXPECT_DOUBLE_EQ(std::fabs(chains[0].front()[0]), 1);
+  EXPECT_DOUBLE_EQ(chains[0].front()[0], -chains[0].back()[0]);
+  EXPECT_DOUBLE_EQ(chains[0][1][0], 0.0625);
+}
+
+TEST(TraceCurve, LeavesOutCellsWithoutBranches) {
+  Encasement e = sample::circle_and_line();
+  e.cells[0].branches.clear();
+  const auto chains = trace_curve(e, 0, 1e-3);
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_NE(chains[0].front(), chains[0].back());
+}
+
+}  // namespace
+}  // namespace encase
