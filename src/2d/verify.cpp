@@ -145,7 +145,9 @@ void check_cell_structure(Claims& claims) {
 template <class T>
 bool are_tokens(const std::vector<int>& tokens, const std::vector<T>& items) {
   for (int token : tokens)
-    if (token < cover::kUnresolved || (token >= 0 && !in_range(token, items))) return false;
+    if (token < cover::kUnresolved || token == cover::kSplitZ ||
+        (token >= 0 && !in_range(token, items)))
+      return false;
   return true;
 }
 
