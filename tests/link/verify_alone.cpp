@@ -14,7 +14,7 @@ int main() {
       hand_made::polynomial({{{1, 0}, 1}, {{0, 1}, Rational(-1, 3)}, {{0, 0}, Rational(-1, 7)}}),
       hand_made::polynomial({{{1, 0}, 1}, {{0, 1}, Rational(1, 5)}, {{0, 0}, Rational(1, 9)}})};
   recipe.corners = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-  recipe.crossings = {{{0, 1}, {-1.0 / 56, -10.0 / 21}}};
+  recipe.crossings = {{{0, 1}, {-1.0 / 63, -10.0 / 21}}};
   Encasement encasement = hand_made::build(recipe);
 
   const Verification verification = verify(encasement);
