@@ -113,7 +113,7 @@ class Usage(CommandTest):
 
     def test_mesh_of_unknown_format(self):
         run = encase("curves", "-e", "x", "--region", "-1 1 -1 1", "--mesh", self.path("a.stl"))
-        self.refused(run, 1, r"\.stl|OpenMesh", r"\.om")
+        self.refused(run, 1, r"\.om.*not .*\.stl|OpenMesh")
 
 
 class BadInput(CommandTest):
