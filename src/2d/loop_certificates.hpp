@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "2d/partition.hpp"
+
+namespace encase {
+
+/// Proves that no loop in the cell surrounds a critical region inside it: a segment from the region
+/// to the cell's boundary on which the curve has no point. A loop around the region would have to
+/// cross it. Nothing if none of the segments tried is free of the curve.
+std::optional<LoopCertificate> certify_no_loop(Partition& partition, const OpenCell& cell,
+                                               int critical_region);
+
+}  // namespace encase

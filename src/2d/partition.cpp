@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+#include "2d/partition.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace encase {
+namespace {
+
+constexpr int kMaxNodes = 400;       // subdivisions a restriction to a line is worth
+constexpr int kMaxRefinements = 80;  // of a root interval before a line is given up
+
+bool finite(const std::array<Interval, 2>& at) {
+  return std::isfinite(at[0].lo) && std::isfinite(at[0].hi) && std::isfinite(at[1].lo) &&
+         std::isfinite(at[1].hi);
+}
+
+}  // namespace
+
+bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
+  // Refine neighbours until all intervals are disjoint.
+  for (int round = 0; round < kMaxRefinements; ++round) {
+    std::sort(roots->begin(), roots->end(), [](const Cut::Root& a, const Cut::Root& b) {
+      return a.interval.lo != b.interval.lo ? a.interval.lo < b.interval.lo : a.curve < b.curve;
+    });
+    bool disjoint = true;
+    for (std::size_t i = 0; i + 1 < roots->size(); ++i) {
+      Cut::Root &a = (*roots)[i], &b = (*roots)[i + 1];
+      if (a.interval.hi < b.interval.lo) continue;
+      if (a.interval.hi == b.interval.lo && a.curve == b.curve) continue;
+      disjoint = false;
+      for (Cut::Root* r : {&a, &b})
+        if (!refine_on_line(curves_[r->curve], line, &r->interval, kernel_)) return false;
+    }
+    if (disjoint) return true;
+  }
+  return false;
+}
+
+std::optional<OpenCell> Partition::open(const std::vector<Line>& sides) {
+  lines = sides;
+  line_crossings.clear();
+  OpenCell cell;
+  const int n = static_cast<int>(sides.size());
+  for (int k = 0; k < n; ++k) {
+    cell.vertices.push_back(meet(sides[(k + n - 1) % n], sides[k]));
+    if (!finite(cell.vertices.back())) return std::nullopt;
+  }
+  for (int k = 0; k < n; ++k) {
+    const Line& side = sides[k];
+    const int axis = parameter_axis(side);
+    Interval from = cell.vertices[k][axis], to = cell.vertices[(k + 1) % n][axis];
+    const bool ascending = from.hi < to.lo;
+    if (!ascending) std::swap(from, to);
+    if (!(from.hi < to.lo)) return std::nullopt;
+    std::vector<Cut::Root> roots;
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      const auto found = isolate_on_line(curves_[c], side, from.lo, to.hi, 20 * kMaxNodes, kernel_);
+      if (!found) return std::nullopt;
+      for (RootInterval root : *found) {
+        for (int i = 0; root.lo <= from.hi || root.hi >= to.lo; ++i)
+          if (i > kMaxRefinements || !refine_on_line(curves_[c], side, &root, kernel_))
+            return std::nullopt;
+        roots.push_back({static_cast<int>(c), root});
+      }
+    }
+    if (!order_on_line(side, &roots)) return std::nullopt;
+    if (!ascending) std::reverse(roots.begin(), roots.end());
+    OpenCell::Edge edge;
+    edge.line = k;
+    for (const Cut::Root& root : roots) {
+      edge.crossings.push_back(static_cast<int>(line_crossings.size()));
+      line_crossings.push_back({k, root.curve, root.interval.lo, root.interval.hi});
+    }
+    cell.edges.push_back(std::move(edge));
+  }
+  return cell;
+}
+
+std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
+                                               const Interval& parameter) {
+  const OpenCell::Edge& e = cell.edges[edge];
+  const Line& line = lines[e.line];
+  const int axis = parameter_axis(line);
+  const std::size_t next = (edge + 1) % cell.edges.size();
+  const bool ascending = cell.vertices[edge][axis].mid() < cell.vertices[next][axis].mid();
+  int before = 0;
+  for (const int id : e.crossings) {
+    LineCrossing& c = line_crossings[id];
+    RootInterval root{c.lo, c.hi};
+    for (int i = 0; root.lo <= parameter.hi && parameter.lo <= root.hi; ++i)
+      if (i > kMaxRefinements || !refine_on_line(curves_[c.curve], line, &root, kernel_))
+        return std::nullopt;
+    c.lo = root.lo;
+    c.hi = root.hi;
+    if ((root.hi < parameter.lo) == ascending) ++before;
+  }
+  return before;
+}
+
+std::vector<int> Partition::crossing_counts(const OpenCell& cell) const {
+  std::vector<int> counts(curves_.size(), 0);
+  for (const auto& edge : cell.edges)
+    for (const int id : edge.crossings) ++counts[line_crossings[id].curve];
+  return counts;
+}
+
+std::vector<int> Partition::alive(const OpenCell& cell) const {
+  std::vector<int> counts = crossing_counts(cell), result;
+  for (const int k : cell.critical_regions) ++counts[critical_regions[k].curve];
+  for (std::size_t c = 0; c < counts.size(); ++c)
+    if (counts[c] > 0) result.push_back(static_cast<int>(c));
+  return result;
+}
+
+std::vector<int> Partition::word(const OpenCell& cell) const {
+  std::vector<int> result;
+  for (const auto& edge : cell.edges)
+    result.insert(result.end(), edge.crossings.begin(), edge.crossings.end());
+  return result;
+}
+
+Point<2> Partition::position(int line_crossing) const {
+  const LineCrossing& c = line_crossings[line_crossing];
+  return middle(point_on_line(lines[c.line], Interval(c.lo + 0.5 * (c.hi - c.lo))));
+}
+
+double Partition::estimate(const std::vector<int>& counts, const std::vector<int>& inside) const {
+  // Every crossing needs a cell of its own, and every branch that no crossing of its curve lies on.
+  double total = static_cast<double>(inside.size());
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    const int branches = (counts[c] + 1) / 2;
+    const bool crossed = std::any_of(inside.begin(), inside.end(), [&](int k) {
+      return crossings[k].curves[0] == static_cast<int>(c) ||
+             crossings[k].curves[1] == static_cast<int>(c);
+    });
+    total += std::max(0, branches - (crossed ? 1 : 0));
+  }
+  return std::max(1.0, total);
+}
+
+bool Partition::inside(const CriticalRegion& region, const OpenCell& cell) {
+  for (const auto& edge : cell.edges) {
+    // The inside of an edge's line is the side of the cell's other vertices.
+    const Line& line = lines[edge.line];
+    Sign within = Sign::Zero;
+    for (const auto& v : cell.vertices) {
+      const auto at = middle(v);
+      const double d = line.normal[0] * at[0] + line.normal[1] * at[1] + line.offset;
+      const double scale = std::fabs(line.normal[0] * at[0]) + std::fabs(line.normal[1] * at[1]) +
+                           std::fabs(line.offset);
+      if (std::fabs(d) > 1e-9 * scale) {
+        within = d < 0 ? Sign::Negative : Sign::Positive;
+        break;
+      }
+    }
+    for (const auto& box : region.boxes)
+      if (side(line, box, kernel_) != within) return false;
+  }
+  return true;
+}
+
+std::optional<Cut> Partition::try_line(const OpenCell& cell, const Line& line, double enough) {
+  const double size = std::fabs(line.normal[0]) + std::fabs(line.normal[1]);
+  if (!(size > 1e-100 && size < 1e100) || !std::isfinite(line.offset)) return std::nullopt;
+  Cut cut;
+  cut.line = line;
+  const int n = static_cast<int>(cell.edges.size());
+
+  // The vertices' sides; distances relative to the cell for the score.
+  thread_local std::vector<int> sides;
+  sides.resize(n);
+  const double length = std::hypot(line.normal[0], line.normal[1]);
+  double nearest = HUGE_VAL, farthest = 0;
+  for (int k = 0; k < n; ++k) {
+    const Interval d = Interval(line.normal[0]) * cell.vertices[k][0] +
+                       Interval(line.normal[1]) * cell.vertices[k][1] + Interval(line.offset);
+    const auto s = d.sign();
+    if (!s || *s == Sign::Zero) return std::nullopt;
+    sides[k] = static_cast<int>(*s);
+    nearest = std::min(nearest, std::fabs(d.mid()) / length);
+    farthest = std::max(farthest, std::fabs(d.mid()) / length);
+  }
+  for (int k = 0; k < n; ++k) {
+    if (sides[k] < 0 && sides[(k + 1) % n] > 0) cut.out = k;
+    if (sides[k] > 0 && sides[(k + 1) % n] < 0) cut.in = k;
+  }
+  if (cut.out < 0 || cut.in < 0) return std::nullopt;
+  double extent = 0;
+  for (int k = 0; k < n; ++k) {
+    const auto a = middle(cell.vertices[k]), b = middle(cell.vertices[0]);
+    extent = std::max(extent, std::hypot(a[0] - b[0], a[1] - b[1]));
+  }
+  double clearance = nearest;
+
+  // Crossing boxes and zones must lie on one side.
+  for (const int id : cell.crossings) {
+    const auto s = side(line, crossings[id].box, kernel_);
+    if (!s) return std::nullopt;
+    cut.crossings[*s == Sign::Positive].push_back(id);
+    const Point<2>& p = crossings[id].point;
+    clearance = std::min(
+        clearance, std::fabs(line.normal[0] * p[0] + line.normal[1] * p[1] + line.offset) / length);
+  }
+  for (const int id : cell.zones)
+    if (!side(line, zones[id].box, kernel_)) return std::nullopt;
+
+  // Old crossings on both sides, and a bound on the score before anything is restricted.
+  cut.vertex_out = meet(line, lines[cell.edges[cut.out].line]);
+  cut.vertex_in = meet(line, lines[cell.edges[cut.in].line]);
+  if (!finite(cut.vertex_out) || !finite(cut.vertex_in)) return std::nullopt;
+  const auto before_out = crossings_before(
+      cell, cut.out, cut.vertex_out[parameter_axis(lines[cell.edges[cut.out].line])]);
+  const auto before_in =
+      crossings_before(cell, cut.in, cut.vertex_in[parameter_axis(lines[cell.edges[cut.in].line])]);
+  if (!before_out || !before_in) return std::nullopt;
+  cut.before_out = *before_out;
+  cut.before_in = *before_in;
+  for (auto& counts : cut.counts) counts.assign(curves_.size(), 0);
+  for (int k = 0; k < n; ++k) {
+    const auto& list = cell.edges[k].crossings;
+    for (int i = 0; i < static_cast<int>(list.size()); ++i) {
+      const bool positive = k == cut.out  ? i >= cut.before_out
+                            : k == cut.in ? i < cut.before_in
+                                          : sides[k] > 0;
+      ++cut.counts[positive][line_crossings[list[i]].curve];
+    }
+  }
+  const double slivers =
+      0.15 * std::max(0.0, std::log10(0.03 / std::max(1e-12, clearance / extent)));
+  const auto score = [&] {
+    const double a = estimate(cut.counts[0], cut.crossings[0]);
+    const double b = estimate(cut.counts[1], cut.crossings[1]);
+    return a + b + slivers - 0.05 * std::min(a, b) / (a + b);
+  };
+  if (score() > enough) return std::nullopt;
+
+  // The curves alive on the chord.
+  const int axis = parameter_axis(line);
+  Interval from = cut.vertex_out[axis], to = cut.vertex_in[axis];
+  if (!(from.hi < to.lo)) std::swap(from, to);
+  if (!(from.hi < to.lo)) return std::nullopt;
+  for (const int c : alive(cell)) {
+    const auto found = isolate_on_line(curves_[c], line, from.lo, to.hi, kMaxNodes, kernel_);
+    if (!found) return std::nullopt;
+    for (RootInterval root : *found) {
+      // The new vertices must be free of the curve: no root in their enclosures.
+      for (int i = 0; root.lo <= from.hi || root.hi >= to.lo; ++i)
+        if (i > kMaxRefinements || !refine_on_line(curves_[c], line, &root, kernel_))
+          return std::nullopt;
+      cut.roots.push_back({c, root});
+      ++cut.counts[0][c];
+      ++cut.counts[1][c];
+    }
+    // A curve enters a cell as often as it leaves it: a free check of all the above.
+    if (cut.counts[0][c] % 2 != 0 || cut.counts[1][c] % 2 != 0) return std::nullopt;
+    if (score() > enough) return std::nullopt;
+  }
+  cut.score = score();
+  return cut;
+}
+
+bool Partition::apply(const OpenCell& cell, Cut cut, OpenCell* negative, OpenCell* positive) {
+  if (!order_on_line(cut.line, &cut.roots)) return false;
+  const int n = static_cast<int>(cell.edges.size());
+  const int id = static_cast<int>(lines.size());
+  lines.push_back(cut.line);
+  const int first = static_cast<int>(line_crossings.size());
+  for (const Cut::Root& root : cut.roots)
+    line_crossings.push_back({id, root.curve, root.interval.lo, root.interval.hi});
+
+  // From the cut on edge `begin` around to the cut on edge `end`, then back along the line.
+  const auto build = [&](OpenCell* child, int begin, int skip, const std::array<Interval, 2>& start,
+                         int end, int keep, const std::array<Interval, 2>& stop) {
+    *child = OpenCell{};
+    child->vertices.push_back(start);
+    const auto& first_list = cell.edges[begin].crossings;
+    child->edges.push_back({cell.edges[begin].line, {first_list.begin() + skip, first_list.end()}});
+    for (int k = (begin + 1) % n; k != end; k = (k + 1) % n) {
+      child->vertices.push_back(cell.vertices[k]);
+      child->edges.push_back(cell.edges[k]);
+    }
+    const auto& last_list = cell.edges[end].crossings;
+    child->vertices.push_back(cell.vertices[end]);
+    child->edges.push_back({cell.edges[end].line, {last_list.begin(), last_list.begin() + keep}});
+    child->vertices.push_back(stop);
+    OpenCell::Edge edge;
+    edge.line = id;
+    for (std::size_t i = 0; i < cut.roots.size(); ++i)
+      edge.crossings.push_back(first + static_cast<int>(i));
+    const int axis = parameter_axis(cut.line);
+    if (!(stop[axis].hi < start[axis].lo))
+      std::reverse(edge.crossings.begin(), edge.crossings.end());
+    child->edges.push_back(std::move(edge));
+    child->depth = cell.depth + 1;
+    child->parent = static_cast<int>(history.size());
+  };
+  build(negative, cut.in, cut.before_in, cut.vertex_in, cut.out, cut.before_out, cut.vertex_out);
+  build(positive, cut.out, cut.before_out, cut.vertex_out, cut.in, cut.before_in, cut.vertex_in);
+  positive->positive = true;
+  negative->crossings = std::move(cut.crossings[0]);
+  positive->crossings = std::move(cut.crossings[1]);
+  for (const int k : cell.critical_regions) {
+    // A region that the line meets is inside neither child nor any cell below.
+    std::optional<Sign> all;
+    bool cut_through = false;
+    for (const auto& box : critical_regions[k].boxes) {
+      const auto s = side(cut.line, box, kernel_);
+      if (!s || (all && *all != *s)) {
+        cut_through = true;
+        break;
+      }
+      all = s;
+    }
+    if (!cut_through) (*all == Sign::Negative ? negative : positive)->critical_regions.push_back(k);
+  }
+  for (const int k : cell.zones) {
+    const auto s = side(cut.line, zones[k].box, kernel_);
+    if (!s || *s == Sign::Negative) negative->zones.push_back(k);
+    if (!s || *s == Sign::Positive) positive->zones.push_back(k);
+  }
+  for (OpenCell* child : {negative, positive}) {
+    const double e = estimate(cut.counts[child == positive], child->crossings);
+    child->least_estimate = std::min(e, cell.least_estimate);
+    child->stall = e < cell.least_estimate ? 0 : cell.stall + 1;
+  }
+  history.push_back({id, 0, 0});
+  if (cell.parent >= 0)
+    (cell.positive ? history[cell.parent].positive : history[cell.parent].negative) =
+        static_cast<int>(history.size()) - 1;
+  return true;
+}
+
+}  // namespace encase
