@@ -98,14 +98,20 @@ void expect_roots_match(const Encasement& encasement, int first, int second,
     ASSERT_LE(holders.size(), 1u) << text(root);
     const Place where = place(encasement.region, root);
     if (holders.empty()) {
-      if (where == Place::Inside) EXPECT_TRUE(is_reported(encasement, root)) << text(root);
+      if (where == Place::Inside) {
+        EXPECT_TRUE(is_reported(encasement, root)) << text(root);
+      }
       continue;
     }
     ++roots_in[holders[0]];
     EXPECT_EQ(roots.multiplicity(i), 1) << text(root);
     const Location location = encasement.crossings[holders[0]].location;
-    if (where == Place::Inside) EXPECT_EQ(location, Location::Inside) << text(root);
-    if (where == Place::Outside) EXPECT_EQ(location, Location::Outside) << text(root);
+    if (where == Place::Inside) {
+      EXPECT_EQ(location, Location::Inside) << text(root);
+    }
+    if (where == Place::Outside) {
+      EXPECT_EQ(location, Location::Outside) << text(root);
+    }
   }
   for (const auto& [k, count] : roots_in)
     EXPECT_EQ(count, 1) << "crossing " << k << " at " << encasement.crossings[k].point[0] << ", "
