@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "hand_made_encasement.hpp"
+#include "mutations.hpp"
 
 namespace encase {
 namespace {
@@ -653,7 +654,7 @@ TEST(Verify, SurvivesIndicesOutOfRangeAndNumbersThatAreNone) {
         [&](auto& m) { m.critical_covers[0].curve = bad; },
         [&](auto& m) { m.critical_covers[0].tokens.back() = bad; },
         [&](auto& m) { m.critical_regions[0].curve = bad; },
-        [&](auto& m) { m.critical_regions[0].sign = static_cast<Sign>(bad - 1); },
+        [&](auto& m) { m.critical_regions[0].sign = static_cast<Sign>(bad == -1 ? 0 : bad); },
         [&](auto& m) { m.curves[0].sources[0] = bad; },
         [&](auto& m) { m.outcome = static_cast<Outcome>(bad); },
         [&](auto& m) { m.crossings[0].location = static_cast<Location>(bad); },
@@ -697,6 +698,29 @@ TEST(Verify, StopsAtTheLimitOfObjections) {
   EXPECT_EQ(verify(e, {848, 3}).objections.size(), 3u);
   // No limit makes a wrong result right.
   EXPECT_FALSE(verify(e, {848, 0}).ok());
+}
+
+TEST(Verify, ObjectsToRandomMutations) {
+  const Encasement e = circle_and_line();
+  mutations::Mutator mutator(1);
+  for (int round = 0; round < 2000; ++round) {
+    Encasement mutant = e;
+    const mutations::Mutation mutation = mutator.apply(mutant);
+    const Verification verification = verify(mutant);
+    EXPECT_TRUE(mutation.may_hold || !verification.ok()) << mutation.what;
+  }
+}
+
+TEST(Verify, SurvivesRandomCorruption) {
+  const Encasement e = circle_and_line();
+  mutations::Mutator mutator(2);
+  int refused = 0;
+  for (int round = 0; round < 2000; ++round) {
+    Encasement mutant = e;
+    mutator.corrupt(mutant, 1 + round % 3);
+    refused += !verify(mutant).ok();
+  }
+  EXPECT_GT(refused, 1000);
 }
 
 }  // namespace
