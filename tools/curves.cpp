@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "curves.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "encase/curves_file.hpp"
+#include "encase/result_json.hpp"
+#include "encase/svg.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#ifdef ENCASE_HAVE_VTK
+#include "encase/vtk.hpp"
+#endif
+#ifdef ENCASE_HAVE_OPEN_MESH
+#include "encase/open_mesh.hpp"
+#endif
+
+namespace encase {
+namespace {
+
+Error bad_input(const std::string& message) { return {Error::Code::BadInput, message}; }
+
+Status check_options(const CurvesRequest& r) {
+  if (r.file.empty() == r.expressions.empty())
+    return bad_input(
+        "give either a FILE of curves or expressions with -e; see encase curves --help");
+  if ((r.json == "-") + (r.svg == "-") + r.summary > 1)
+    return bad_input("only one of --json -, --svg - and --summary can have standard output");
+  if (r.history && r.vtk_directory.empty())
+    return bad_input("--history belongs to the VTK files: give their directory with -o");
+  if (r.options.start_bits > r.options.max_bits)
+    return bad_input("--start-bits is above --max-bits");
+  if (!std::isfinite(r.options.max_seconds))
+    return bad_input("--max-seconds must be a finite number");
+  if (!(r.options.perturbation >= 0 && r.options.perturbation < 1))
+    return bad_input("--perturb must be between 0 and 1");
+  return {};
+}
+
+/// What is asked for can be written: the component is there, the format is known, the place exists.
+Status check_outputs(const CurvesRequest& r) {
+#ifndef ENCASE_HAVE_VTK
+  if (!r.vtk_directory.empty())
+    return bad_input("-o needs VTK, and this encase was built without VTK");
+#endif
+  if (!r.mesh.empty()) {
+#ifdef ENCASE_HAVE_OPEN_MESH
+    const std::string extension = std::filesystem::path(r.mesh).extension().string();
+    if (extension != ".om" && extension != ".off" && extension != ".obj" && extension != ".ply")
+      return bad_input("--mesh writes .om, .off, .obj or .ply, not '" + r.mesh + "'");
+#else
+    return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
+#endif
+  }
+  for (const std::string* path : {&r.json, &r.svg, &r.mesh})
+    if (const Status status = check_writable(*path)) return status;
+  return check_writable_directory(r.vtk_directory);
+}
+
+struct Input {
+  std::vector<NamedCurve> curves;
+  Region region;
+};
+
+Result<Input> read(const CurvesRequest& r) {
+  std::string lines;
+  for (const std::string& expression : r.expressions) lines += expression + "\n";
+  auto file = r.expressions.empty() ? load_curves(r.file) : read_curves(lines, "-e");
+  if (!file) return file.error();
+  std::optional<Region> region = file.value().region;
+  if (!r.region.empty()) {
+    auto parsed = parse_region(r.region, "--region");
+    if (!parsed) return parsed.error();
+    region = std::move(parsed).value();
+  }
+  if (!region)
+    return bad_input(
+        "no region is given: add a line 'region: xmin xmax ymin ymax' to the file, or "
+        "--region \"xmin xmax ymin ymax\"");
+  return Input{std::move(file.value().curves), *std::move(region)};
+}
+
+/// The files asked for, in the order of their options.
+Status write_files(const CurvesRequest& r, const Encasement& encasement) {
+  if (!r.json.empty())
+    if (const Status status = write_output(r.json, to_json(encasement))) return status;
+  if (!r.svg.empty())
+    if (const Status status = write_output(r.svg, to_svg(encasement))) return status;
+#ifdef ENCASE_HAVE_OPEN_MESH
+  if (!r.mesh.empty())
+    if (const Status status = write_open_mesh(encasement, r.mesh)) return status;
+#endif
+#ifdef ENCASE_HAVE_VTK
+  if (!r.vtk_directory.empty())
+    if (const Status status = write_vtk(encasement, r.vtk_directory, r.history)) return status;
+#endif
+  return {};
+}
+
+Status write_report(const CurvesRequest& r, const Encasement& encasement) {
+  std::string text = report(encasement);
+  if (r.verbose) text += statistics_report(encasement);
+  if (r.summary) {
+    if (const Status status = print(summary_json(encasement))) return status;
+    if (r.verbose) std::fputs(text.c_str(), stderr);
+    return {};
+  }
+  if (r.quiet) return {};
+  if (r.json != "-" && r.svg != "-") return print(text);
+  std::fputs(text.c_str(), stderr);
+  return {};
+}
+
+}  // namespace
+
+ExitCode run_curves(CurvesRequest request) {
+  if (const Status status = check_options(request)) return fail(*status);
+  if (const Status status = check_outputs(request)) return fail(*status);
+  const auto input = read(request);
+  if (!input) return fail(input.error());
+
+  std::optional<Progress> progress(std::in_place, !request.quiet);
+  request.options.progress = progress->callback();
+  const auto result = encase(input.value().curves, input.value().region, request.options);
+  progress.reset();
+  if (!result) return fail(result.error());
+
+  if (const Status status = write_files(request, result.value())) return fail(*status);
+  if (const Status status = write_report(request, result.value())) return fail(*status);
+  return exit_code(result.value().outcome);
+}
+
+}  // namespace encase
