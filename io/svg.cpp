@@ -1,0 +1,518 @@
+// SPDX-License-Identifier: MIT
+#include "encase/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+#include "2d/trace.hpp"
+
+namespace encase {
+namespace {
+
+// Okabe and Ito's colours, which people with any colour vision can tell apart, without yellow.
+constexpr std::array<const char*, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
+                                                 "#cc79a7", "#56b4e9", "#e69f00"};
+// More curves than colours: the same colours with other strokes.
+constexpr std::array<const char*, 4> kDashes = {"", "7 3", "2 3", "9 3 2 3"};
+constexpr const char* kDegenerate = "#c1121f";
+constexpr const char* kUndecided = "#7b2cbf";
+constexpr double kTolerance = 0.1;  ///< pixels between a curve and what is drawn
+constexpr double kFont = 12;
+constexpr double kLetter = 6.7;  ///< about how wide a letter of that size is
+constexpr double kLegendRow = 20;
+
+const char* colour(int curve) { return kColours[curve % kColours.size()]; }
+const char* dash(int curve) { return kDashes[curve / kColours.size() % kDashes.size()]; }
+
+/// A coordinate in pixels: a hundredth is finer than anyone sees.
+std::string pixels(double value) {
+  if (!std::isfinite(value)) return "0";
+  std::string text = fmt::format("{:.2f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+/// Text for XML: markup escaped, what XML does not allow replaced.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  }
+  return out;
+}
+
+bool continues_letter(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+int letters(std::string_view text) {
+  return static_cast<int>(
+      std::count_if(text.begin(), text.end(), [](char c) { return !continues_letter(c); }));
+}
+
+/// The first letters of a text, for legends.
+std::string shortened(const std::string& text, int most) {
+  if (letters(text) <= most) return text;
+  std::size_t end = 0;
+  for (int seen = 0; end < text.size(); ++end)
+    if (!continues_letter(text[end]) && ++seen == most) break;
+  return text.substr(0, end) + "…";
+}
+
+/// The marks of an axis: multiples of 1, 2 or 5 times a power of ten, with texts of equal
+/// precision.
+struct Ticks {
+  std::vector<double> values;
+  std::vector<std::string> texts;
+};
+
+Ticks make_ticks(double lo, double hi, double length) {
+  Ticks ticks;
+  const double wanted = std::clamp(length / 90, 2.0, 9.0);
+  const double raw = (hi - lo) / wanted;
+  if (!(raw > 0) || !std::isfinite(raw)) return ticks;
+  const int exponent = static_cast<int>(std::floor(std::log10(raw)));
+  const double power = std::pow(10.0, exponent);
+  double step = 10 * power;
+  for (const double unit : {1.0, 2.0, 5.0})
+    if (unit * power >= raw) {
+      step = unit * power;
+      break;
+    }
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step * 1.000001))));
+  const double largest = std::max(std::fabs(lo), std::fabs(hi));
+  const double slack = 1e-6 * step;
+  for (double k = std::ceil((lo - slack) / step); k * step <= hi + slack; ++k) {
+    const double value = k * step;
+    if (value == ticks.values.size() && ticks.values.size() > 50) break;
+    ticks.values.push_back(value);
+    std::string text;
+    if (largest < 1e6 && decimals <= 6)
+      text = fmt::format("{:.{}f}", std::fabs(value), decimals);
+    else
+      text = fmt::format(
+          "{:.{}g}", std::fabs(value),
+          std::clamp(static_cast<int>(std::ceil(std::log10(largest / step))) + 2, 2, 17));
+    // The sign of a number, not a hyphen.
+    ticks.texts.push_back(
+        (value < 0 && text.find_first_of("123456789") != text.npos ? "\u2212" : "") + text);
+    if (ticks.values.size() > 50) break;
+  }
+  return ticks;
+}
+
+/// The map from input coordinates to pixels.
+struct View {
+  Box<2> box;
+  double scale_x = 1, scale_y = 1;
+  double left = 0, top = 0;
+  double width = 0, height = 0;
+
+  double x(double value) const { return left + (value - box.lo[0]) * scale_x; }
+  double y(double value) const { return top + (box.hi[1] - value) * scale_y; }
+  std::string point(const Point<2>& p) const { return pixels(x(p[0])) + " " + pixels(y(p[1])); }
+
+  /// "M x y L ..." without points that fall on the one before.
+  std::string path(const std::vector<Point<2>>& points, bool closed) const {
+    std::string out, last;
+    for (const Point<2>& p : points) {
+      std::string here = point(p);
+      if (here == last) continue;
+      out += last.empty() ? "M" : "L";
+      out += here;
+      last = std::move(here);
+    }
+    if (closed && !out.empty()) out += "Z";
+    return out;
+  }
+  std::string rectangle(const Box<2>& b) const {
+    const double x0 = x(b.lo[0]), y0 = y(b.hi[1]);
+    return "M" + pixels(x0) + " " + pixels(y0) + "h" + pixels(x(b.hi[0]) - x0) + "v" +
+           pixels(y(b.lo[1]) - y0) + "h" + pixels(x0 - x(b.hi[0])) + "Z";
+  }
+  /// The larger side of a box in pixels.
+  double extent(const Box<2>& b) const {
+    return std::max(b.width(0) * scale_x, b.width(1) * scale_y);
+  }
+  Point<2> center(const Box<2>& b) const { return {x(b.center()[0]), y(b.center()[1])}; }
+};
+
+class Picture {
+ public:
+  Picture(const Encasement& encasement, const SvgOptions& options)
+      : e_(encasement), options_(options) {}
+
+  std::string draw() {
+    lay_out();
+    for (const Cell& cell : e_.cells) hatched_ |= cell.state == CellState::Relaxed;
+    open();
+    if (options_.cells) draw_cells();
+    if (options_.critical_regions) draw_critical_regions();
+    draw_region();
+    draw_curves();
+    draw_crossings();
+    draw_unresolved();
+    if (options_.axes) draw_axes();
+    if (options_.legend) draw_legend();
+    out_ += "</svg>\n";
+    return std::move(out_);
+  }
+
+ private:
+  // What the legend shows, in its order, with the room each entry takes.
+  struct Entry {
+    std::string mark;  ///< drawn with its middle at (0, 0), 24 pixels wide
+    std::string text;
+    double width = 0;
+  };
+
+  template <class... Args>
+  void add(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+  }
+
+  void lay_out() {
+    View& v = view_;
+    v.box = e_.region_used.bounding_box();
+    double w = v.box.width(0), h = v.box.width(1);
+    if (!(w > 0)) w = 1;
+    if (!(h > 0)) h = 1;
+    const double size = std::max(options_.size, 50);
+    v.width = w >= h ? size : std::max(size * (w / h), size / 12);
+    v.height = h >= w ? size : std::max(size * (h / w), size / 12);
+    v.scale_x = v.width / w;
+    v.scale_y = v.height / h;
+    v.left = v.top = 8;
+    double right = 8, bottom = 8;
+    if (options_.axes) {
+      x_ticks_ = make_ticks(v.box.lo[0], v.box.hi[0], v.width);
+      y_ticks_ = make_ticks(v.box.lo[1], v.box.hi[1], v.height);
+      int widest = 1;
+      for (const std::string& text : y_ticks_.texts) widest = std::max(widest, letters(text));
+      v.left = 18 + kLetter * widest;
+      right = 18;
+      bottom = 30;
+    }
+    width_ = v.left + v.width + right;
+    if (options_.legend) {
+      make_legend();
+      v.top = 14 + kLegendRow * static_cast<double>(legend_rows_.size());
+    }
+    height_ = v.top + v.height + bottom;
+    // Where cells are crowded, their outlines must not fill the picture.
+    std::vector<double> extents;
+    for (const Cell& cell : e_.cells) extents.push_back(view_.extent(bounds(cell)));
+    if (!extents.empty()) {
+      std::nth_element(extents.begin(), extents.begin() + extents.size() / 2, extents.end());
+      cell_stroke_ = std::clamp(0.02 * extents[extents.size() / 2], 0.2, 0.75);
+    }
+    crowded_ = e_.crossings.size() > 150 || e_.cells.size() > 3000;
+  }
+
+  static Box<2> bounds(const Cell& cell) {
+    Box<2> box;
+    if (cell.vertices.empty()) return box;
+    box = {cell.vertices[0].point, cell.vertices[0].point};
+    for (const Vertex& vertex : cell.vertices) box = hull(box, {vertex.point, vertex.point});
+    return box;
+  }
+
+  void open() {
+    add("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
+        "{1}\" "
+        "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{2}\">\n",
+        pixels(width_), pixels(height_), pixels(kFont));
+    std::string names;
+    for (const Curve& curve : e_.curves) names += (names.empty() ? "" : ", ") + curve.name;
+    add("<title>{}</title>\n", escaped("Encasement of " + names));
+    std::string region;
+    for (const auto& corner : e_.region_used.corners) {
+      const Point<2> p = {corner[0].get_d(), corner[1].get_d()};
+      region += (region.empty() ? "M" : "L") + view_.point(p);
+    }
+    region_ = region + "Z";
+    add("<defs>\n<clipPath id=\"encase-region\"><path d=\"{}\"/></clipPath>\n", region_);
+    if (hatched_)
+      add("<pattern id=\"encase-relaxed\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\" "
+          "patternTransform=\"rotate(45)\"><path d=\"M0 0V6\" stroke=\"#8d99ae\" "
+          "stroke-width=\"1\"/></pattern>\n");
+    add("</defs>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
+  }
+
+  static std::string tint(const Cell& cell) {
+    if (cell.state == CellState::Degenerate) return "fill=\"#f9d3cf\"";
+    if (cell.state == CellState::Undecided) return "fill=\"#e7dcf3\"";
+    if (cell.crossing >= 0) return "fill=\"#fff7dc\"";
+    if (cell.branches.empty()) return "fill=\"#fff\"";
+    if (cell.branches.size() > 1) return "fill=\"#eef0f3\"";
+    return fmt::format("fill=\"{}\" fill-opacity=\"0.07\"", colour(cell.branches[0].curve));
+  }
+
+  void draw_cells() {
+    // One path a tint keeps files small; the order is that of first appearance.
+    std::vector<std::pair<std::string, std::string>> fills;
+    std::string outlines, relaxed;
+    for (const Cell& cell : e_.cells) {
+      std::vector<Point<2>> points;
+      for (const Vertex& vertex : cell.vertices) points.push_back(vertex.point);
+      const std::string path = view_.path(points, true);
+      outlines += path;
+      if (cell.state == CellState::Relaxed) relaxed += path;
+      const std::string fill = tint(cell);
+      auto found = std::find_if(fills.begin(), fills.end(),
+                                [&](const auto& entry) { return entry.first == fill; });
+      if (found == fills.end()) found = fills.insert(found, {fill, {}});
+      found->second += path;
+    }
+    add("<g id=\"cells\">\n");
+    for (const auto& [fill, path] : fills) add("<path {} d=\"{}\"/>\n", fill, path);
+    if (!relaxed.empty())
+      add("<path fill=\"url(#encase-relaxed)\" opacity=\"0.45\" d=\"{}\"/>\n", relaxed);
+    add("<path fill=\"none\" stroke=\"#8f959c\" stroke-width=\"{}\" stroke-linejoin=\"round\" "
+        "d=\"{}\"/>\n</g>\n",
+        pixels(cell_stroke_), outlines);
+  }
+
+  void draw_critical_regions() {
+    if (e_.critical_regions.empty()) return;
+    add("<g id=\"critical-regions\" clip-path=\"url(#encase-region)\">\n");
+    for (const CriticalRegion& region : e_.critical_regions) {
+      if (region.boxes.empty()) continue;
+      Box<2> all = region.boxes.front();
+      std::string path;
+      for (const Box<2>& box : region.boxes) {
+        all = hull(all, box);
+        path += view_.rectangle(box);
+      }
+      const char* paint = colour(region.curve);
+      if (view_.extent(all) >= 4) {
+        add("<path fill=\"{0}\" fill-opacity=\"0.25\" stroke=\"{0}\" stroke-opacity=\"0.3\" "
+            "stroke-width=\"0.4\" d=\"{1}\"/>\n",
+            paint, path);
+      } else {
+        const Point<2> c = view_.center(all);
+        add("<path fill=\"{0}\" fill-opacity=\"0.3\" stroke=\"{0}\" stroke-opacity=\"0.7\" "
+            "stroke-width=\"0.8\" d=\"M{1} {2}h5v5h-5Z\"/>\n",
+            paint, pixels(c[0] - 2.5), pixels(c[1] - 2.5));
+      }
+    }
+    add("</g>\n");
+  }
+
+  void draw_region() {
+    add("<path id=\"region\" fill=\"none\" stroke=\"#444\" stroke-width=\"1\" "
+        "stroke-linejoin=\"miter\" d=\"{}\"/>\n",
+        region_);
+  }
+
+  std::string stroke(int curve) const {
+    std::string text =
+        fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
+                    colour(curve), crowded_ ? "1.3" : "2");
+    if (*dash(curve)) text += fmt::format(" stroke-dasharray=\"{}\"", dash(curve));
+    return text;
+  }
+
+  void draw_curves() {
+    const double tolerance = kTolerance / std::max(view_.scale_x, view_.scale_y);
+    add("<g id=\"curves\">\n");
+    for (int curve = 0; curve < static_cast<int>(e_.curves.size()); ++curve) {
+      std::string path;
+      for (const auto& chain : trace_curve(e_, curve, tolerance)) {
+        const bool closed = chain.size() > 2 && chain.front() == chain.back();
+        path += view_.path(chain, closed);
+      }
+      if (path.empty()) continue;
+      add("<path {} d=\"{}\"><title>{}</title></path>\n", stroke(curve), path,
+          escaped(e_.curves[curve].name));
+    }
+    add("</g>\n");
+  }
+
+  std::string dot(double x, double y, bool filled) const {
+    return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {}/>", pixels(x), pixels(y),
+                       crowded_ ? "2.2" : "3.4",
+                       filled ? "fill=\"#1a1a1a\" stroke=\"#fff\" stroke-width=\"1.1\""
+                              : "fill=\"#fff\" stroke=\"#1a1a1a\" stroke-width=\"1.1\"");
+  }
+
+  void draw_crossings() {
+    if (e_.crossings.empty()) return;
+    add("<g id=\"crossings\">\n");
+    for (const Crossing& crossing : e_.crossings)
+      add("{}\n", dot(view_.x(crossing.point[0]), view_.y(crossing.point[1]),
+                      crossing.location != Location::Outside));
+    add("</g>\n");
+  }
+
+  void draw_places(const std::vector<Unresolved>& places, const char* paint) {
+    for (const Unresolved& place : places) {
+      if (!place.has_box) continue;
+      const std::string title = escaped(place.reason);
+      if (view_.extent(place.box) >= 8) {
+        add("<path fill=\"{0}\" fill-opacity=\"0.12\" stroke=\"{0}\" stroke-width=\"1.2\" "
+            "stroke-dasharray=\"4 2\" clip-path=\"url(#encase-region)\" "
+            "d=\"{1}\"><title>{2}</title></path>\n",
+            paint, view_.rectangle(place.box), title);
+        continue;
+      }
+      const Point<2> c = view_.center(place.box);
+      add("<circle fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" cx=\"{}\" cy=\"{}\" r=\"7\">"
+          "<title>{}</title></circle>\n",
+          paint, pixels(c[0]), pixels(c[1]), title);
+    }
+  }
+
+  void draw_unresolved() {
+    if (e_.degenerate.empty() && e_.undecided.empty()) return;
+    add("<g id=\"unresolved\">\n");
+    draw_places(e_.undecided, kUndecided);
+    draw_places(e_.degenerate, kDegenerate);
+    add("</g>\n");
+  }
+
+  void draw_axes() {
+    const View& v = view_;
+    const double bottom = v.top + v.height;
+    add("<g id=\"axes\" fill=\"#333\" stroke=\"none\">\n");
+    // The frame of a region that is not a rectangle is only a reference.
+    add("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#bbb\" "
+        "stroke-width=\"0.6\"/>\n",
+        pixels(v.left), pixels(v.top), pixels(v.width), pixels(v.height));
+    std::string marks;
+    for (const double value : x_ticks_.values)
+      marks += "M" + pixels(v.x(value)) + " " + pixels(bottom) + "v5";
+    for (const double value : y_ticks_.values)
+      marks += "M" + pixels(v.left) + " " + pixels(v.y(value)) + "h-5";
+    add("<path fill=\"none\" stroke=\"#444\" stroke-width=\"0.8\" d=\"{}\"/>\n", marks);
+    for (std::size_t k = 0; k < x_ticks_.values.size(); ++k)
+      add("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
+          pixels(v.x(x_ticks_.values[k])), pixels(bottom + 19), x_ticks_.texts[k]);
+    for (std::size_t k = 0; k < y_ticks_.values.size(); ++k)
+      add("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n", pixels(v.left - 9),
+          pixels(v.y(y_ticks_.values[k]) + 4.2), y_ticks_.texts[k]);
+    add("</g>\n");
+  }
+
+  static std::string swatch(const std::string& fill, const std::string& outline) {
+    return fmt::format(
+        "<rect x=\"-9\" y=\"-6\" width=\"18\" height=\"12\" {} stroke=\"{}\" "
+        "stroke-width=\"0.8\"/>",
+        fill, outline);
+  }
+
+  void make_legend() {
+    std::vector<Entry> entries;
+    constexpr int kMost = 24;
+    const int curves = static_cast<int>(e_.curves.size());
+    for (int curve = 0; curve < std::min(curves, kMost); ++curve)
+      entries.push_back({fmt::format("<path {} d=\"M-11 0H11\"/>", stroke(curve)),
+                         shortened(e_.curves[curve].name, 40)});
+    if (curves > kMost) entries.push_back({"", fmt::format("and {} more", curves - kMost)});
+    const auto any_location = [&](bool outside) {
+      return std::any_of(e_.crossings.begin(), e_.crossings.end(), [&](const Crossing& c) {
+        return (c.location == Location::Outside) == outside;
+      });
+    };
+    const auto any_state = [&](CellState state) {
+      return options_.cells && std::any_of(e_.cells.begin(), e_.cells.end(),
+                                           [&](const Cell& cell) { return cell.state == state; });
+    };
+    if (any_location(false)) entries.push_back({dot(0, 0, true), "crossing"});
+    if (any_location(true)) entries.push_back({dot(0, 0, false), "outside the region"});
+    if (options_.critical_regions && !e_.critical_regions.empty()) {
+      // In the colours of the curves that have some.
+      std::string mark;
+      std::vector<bool> has(e_.curves.size());
+      for (const CriticalRegion& region : e_.critical_regions) has[region.curve] = true;
+      const auto count = std::min<std::ptrdiff_t>(3, std::count(has.begin(), has.end(), true));
+      double x = -6.5 * static_cast<double>(count);
+      for (int curve = 0, seen = 0; curve < curves && seen < count; ++curve) {
+        if (!has[curve]) continue;
+        ++seen;
+        mark += fmt::format(
+            "<rect x=\"{0}\" y=\"-5.5\" width=\"11\" height=\"11\" fill=\"{1}\" "
+            "fill-opacity=\"0.25\" "
+            "stroke=\"{1}\" stroke-opacity=\"0.3\" stroke-width=\"0.4\"/>",
+            pixels(x + 1), colour(curve));
+        x += 13;
+      }
+      entries.push_back({mark, "critical region"});
+    }
+    if (any_state(CellState::Relaxed))
+      entries.push_back({swatch("fill=\"#eef0f3\"", "#a3a8ae") +
+                             "<rect x=\"-9\" y=\"-6\" width=\"18\" height=\"12\" "
+                             "fill=\"url(#encase-relaxed)\" opacity=\"0.45\"/>",
+                         "relaxed cell"});
+    if (any_state(CellState::Degenerate) || !e_.degenerate.empty())
+      entries.push_back({swatch("fill=\"#f9d3cf\"", kDegenerate), "degenerate"});
+    if (any_state(CellState::Undecided) || !e_.undecided.empty())
+      entries.push_back({swatch("fill=\"#e7dcf3\"", kUndecided), "undecided"});
+
+    const double room = width_ - view_.left - 8;
+    double used = 0;
+    for (Entry& entry : entries) {
+      entry.width = 24 + 7 + kLetter * letters(entry.text) + 20;
+      if (legend_rows_.empty() || used + entry.width - 20 > room) {
+        legend_rows_.emplace_back();
+        used = 0;
+      }
+      used += entry.width;
+      legend_rows_.back().push_back(std::move(entry));
+    }
+    // A name wider than the picture.
+    for (const auto& row : legend_rows_)
+      for (const Entry& entry : row) width_ = std::max(width_, view_.left + entry.width);
+  }
+
+  void draw_legend() {
+    add("<g id=\"legend\" fill=\"#222\">\n");
+    double y = 15;
+    for (const auto& row : legend_rows_) {
+      double x = view_.left;
+      for (const Entry& entry : row) {
+        if (!entry.mark.empty())
+          add("<g transform=\"translate({} {})\">{}</g>\n", pixels(x + 12), pixels(y), entry.mark);
+        add("<text x=\"{}\" y=\"{}\">{}</text>\n", pixels(x + 31), pixels(y + 4.2),
+            escaped(entry.text));
+        x += entry.width;
+      }
+      y += kLegendRow;
+    }
+    add("</g>\n");
+  }
+
+  const Encasement& e_;
+  const SvgOptions& options_;
+  View view_;
+  double width_ = 0, height_ = 0;
+  double cell_stroke_ = 0.7;
+  bool crowded_ = false;
+  bool hatched_ = false;
+  std::string region_;  ///< path of the region
+  Ticks x_ticks_, y_ticks_;
+  std::vector<std::vector<Entry>> legend_rows_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string to_svg(const Encasement& encasement, const SvgOptions& options) {
+  return Picture(encasement, options).draw();
+}
+
+}  // namespace encase
