@@ -206,6 +206,10 @@ class Picture {
       v.left = 18 + kLetter * widest;
       right = 18;
       bottom = 30;
+      if (!x_ticks_.texts.empty()) {
+        v.left = std::max(v.left, 4 + 0.5 * kLetter * letters(x_ticks_.texts.front()));
+        right = std::max(right, 4 + 0.5 * kLetter * letters(x_ticks_.texts.back()));
+      }
     }
     width_ = v.left + v.width + right;
     if (options_.legend) {
@@ -254,8 +258,8 @@ class Picture {
   }
 
   static std::string tint(const Cell& cell) {
-    if (cell.state == CellState::Degenerate) return "fill=\"#f9d3cf\"";
-    if (cell.state == CellState::Undecided) return "fill=\"#e7dcf3\"";
+    if (cell.state == CellState::Degenerate) return "fill=\"#fce3e0\"";
+    if (cell.state == CellState::Undecided) return "fill=\"#efe7f7\"";
     if (cell.crossing >= 0) return "fill=\"#fff7dc\"";
     if (cell.branches.empty()) return "fill=\"#fff\"";
     if (cell.branches.size() > 1) return "fill=\"#eef0f3\"";
@@ -439,7 +443,7 @@ class Picture {
       std::string mark;
       std::vector<bool> has(e_.curves.size());
       for (const CriticalRegion& region : e_.critical_regions) has[region.curve] = true;
-      const auto count = std::min<std::ptrdiff_t>(3, std::count(has.begin(), has.end(), true));
+      const auto count = std::min<std::ptrdiff_t>(2, std::count(has.begin(), has.end(), true));
       double x = -6.5 * static_cast<double>(count);
       for (int curve = 0, seen = 0; curve < curves && seen < count; ++curve) {
         if (!has[curve]) continue;
@@ -459,9 +463,9 @@ class Picture {
                              "fill=\"url(#encase-relaxed)\" opacity=\"0.45\"/>",
                          "relaxed cell"});
     if (any_state(CellState::Degenerate) || !e_.degenerate.empty())
-      entries.push_back({swatch("fill=\"#f9d3cf\"", kDegenerate), "degenerate"});
+      entries.push_back({swatch("fill=\"#fce3e0\"", kDegenerate), "degenerate"});
     if (any_state(CellState::Undecided) || !e_.undecided.empty())
-      entries.push_back({swatch("fill=\"#e7dcf3\"", kUndecided), "undecided"});
+      entries.push_back({swatch("fill=\"#efe7f7\"", kUndecided), "undecided"});
 
     const double room = width_ - view_.left - 8;
     double used = 0;
