@@ -32,6 +32,10 @@ class MpfrInterval {
     mpfr_set_q(lo_, value.get_mpq_t(), MPFR_RNDD);
     mpfr_set_q(hi_, value.get_mpq_t(), MPFR_RNDU);
   }
+  MpfrInterval(int bits, const Rational& lo, const Rational& hi) : MpfrInterval(bits) {
+    mpfr_set_q(lo_, lo.get_mpq_t(), MPFR_RNDD);
+    mpfr_set_q(hi_, hi.get_mpq_t(), MPFR_RNDU);
+  }
   MpfrInterval(const MpfrInterval& other) : MpfrInterval(other.bits()) { *this = other; }
   MpfrInterval(MpfrInterval&& other) noexcept {
     *lo_ = *other.lo_;
