@@ -1,0 +1,604 @@
+// SPDX-License-Identifier: MIT
+#include "encase/encasement.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "2d/critical_regions.hpp"
+#include "2d/locate.hpp"
+#include "2d/loop_certificates.hpp"
+#include "2d/partition.hpp"
+#include "2d/splitting_lines.hpp"
+#include "common/components.hpp"
+#include "common/isolate_roots.hpp"
+#include "common/perturb.hpp"
+
+namespace encase {
+namespace {
+
+double cpu_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+std::string decimal(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+/// One run of `encase`; the members are called in the order of their numbers.
+class Encaser {
+ public:
+  Encaser(const std::vector<NamedCurve>& input, const Region& region, const EncaseOptions& options)
+      : options_(options), start_(cpu_seconds()) {
+    kernel_.start_bits = std::max(options.start_bits, Kernel::kDoubleBits);
+    kernel_.max_bits = std::max(options.max_bits, kernel_.start_bits);
+    result_.input = input;
+    result_.region = region;
+    result_.seed = options.seed;
+    result_.perturbation = options.perturbation;
+  }
+
+  Status check_input() const;    // 1. sanity
+  void separate_components();    // 1. shared and repeated components
+  bool open_region();            // 2. a generic polygon
+  void isolate_crossings();      // 2. crossings first
+  void find_critical_regions();  // 3. critical regions
+  void give_up_on_region();      //    or one undecided cell
+  void collect_zones();          //    what resists, kept apart
+  void split_cells();            // 4. split until every cell is simple; loops last
+  void finish_cells();           // 5. the cells and their certificates
+  void decide_outcome();
+  Encasement take_result() { return std::move(result_); }
+
+ private:
+  enum class Shape { Simple, Relaxable, Complex };
+  Shape shape_of(const OpenCell& cell) const;
+  std::optional<Cut> next_cut(const OpenCell& cell, CellState* settled);
+  bool out_of_budget();
+  std::vector<Line> sides() const;
+  std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
+  void report(const std::vector<Box<2>>& unresolved, const Box<2>& root, Unresolved::Kind kind,
+              std::vector<int> curves);
+  Cell finish(const OpenCell& open, CellState state, int id);
+
+  struct Finished {
+    OpenCell cell;
+    CellState state;
+    std::vector<LoopCertificate> certificates;
+  };
+
+  const EncaseOptions& options_;
+  double start_;
+  Kernel kernel_;
+  Encasement result_;
+  std::vector<FilteredPolynomial<2>> polynomials_;
+  std::unique_ptr<Partition> partition_;
+  OpenCell first_cell_;
+  std::vector<Finished> finished_;
+  std::vector<LoopCertificate> certificates_;  // of the cell at hand
+  std::string budget_;                         // the sentence that tells which ran out
+};
+
+Status Encaser::check_input() const {
+  const auto bad = [](std::string message) {
+    return Status(Error{Error::Code::BadInput, std::move(message)});
+  };
+  if (result_.region.corners.size() < 3) return bad("the region has fewer than three corners");
+  for (const NamedCurve& curve : result_.input) {
+    if (curve.polynomial.is_zero())
+      return bad("curve '" + curve.name + "' is the zero polynomial: every point lies on it");
+    if (curve.polynomial.is_constant())
+      return bad("curve '" + curve.name + "' is a constant: no point lies on it");
+    if (curve.polynomial.degree() > kMaxDegree)
+      return bad("curve '" + curve.name + "' has degree " +
+                 std::to_string(curve.polynomial.degree()) + ", above the limit of " +
+                 std::to_string(kMaxDegree));
+  }
+  if (!(options_.perturbation >= 0) || !std::isfinite(options_.perturbation))
+    return bad("the perturbation must be a number that is not negative");
+  return std::nullopt;
+}
+
+void Encaser::separate_components() {
+  if (options_.perturbation > 0) {
+    std::mt19937_64 generator(options_.seed);
+    for (NamedCurve& curve : result_.input)
+      curve.polynomial = perturb(curve.polynomial, options_.perturbation, generator);
+  }
+  std::vector<Polynomial<2>> inputs;
+  for (const NamedCurve& curve : result_.input) inputs.push_back(curve.polynomial);
+  std::vector<int> used(inputs.size(), 0);
+  for (BaseElement<2>& element : coprime_square_free_base(inputs)) {
+    Curve curve;
+    Unresolved note;
+    note.proved = true;
+    for (const auto& source : element.sources) {
+      const NamedCurve& from = result_.input[source.index];
+      curve.sources.push_back(source.index);
+      curve.name += (curve.name.empty() ? "" : " & ") + from.name;
+      note.curves.push_back(source.index);
+      if (source.multiplicity > 1) {
+        Unresolved repeated = note;
+        repeated.kind = Unresolved::Kind::RepeatedComponent;
+        repeated.curves = {source.index};
+        repeated.reason = "curve '" + from.name + "' contains the component " +
+                          element.polynomial.to_string() + " = 0 " +
+                          std::to_string(source.multiplicity) + " times; it is encased once";
+        result_.degenerate.push_back(std::move(repeated));
+      }
+    }
+    if (element.sources.size() > 1) {
+      note.kind = Unresolved::Kind::SharedComponent;
+      note.reason = "curves '" + curve.name + "' share the component " +
+                    element.polynomial.to_string() + " = 0; it is encased as one curve";
+      result_.degenerate.push_back(std::move(note));
+    } else if (++used[element.sources[0].index] > 1) {
+      curve.name += " (" + std::to_string(used[element.sources[0].index]) + ")";
+    }
+    curve.polynomial = std::move(element.polynomial);
+    polynomials_.emplace_back(curve.polynomial);
+    result_.curves.push_back(std::move(curve));
+  }
+}
+
+std::vector<Line> Encaser::sides() const {
+  std::vector<Line> sides;
+  for (int k = 0; k < result_.region_used.side_count(); ++k)
+    sides.push_back(result_.region_used.side(k));
+  return sides;
+}
+
+bool Encaser::open_region() {
+  // The region itself, or one of some slightly larger polygons in which every curve meets the sides
+  // in simple points, none of them a corner or shared (design of the boundary: docs/encasement.md).
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    auto used = attempt == 0 ? std::optional(result_.region) : enlarged(result_.region, attempt);
+    if (!used) continue;
+    result_.region_used = *used;
+    partition_ = std::make_unique<Partition>(polynomials_, kernel_);
+    if (auto cell = partition_->open(sides())) {
+      first_cell_ = std::move(*cell);
+      isolate_crossings();
+      // Every crossing box must lie on one side of every side's line.
+      bool clear = true;
+      for (const Crossing& crossing : partition_->crossings)
+        for (const Line& line : sides())
+          clear = clear && side(line, crossing.box, kernel_).has_value();
+      if (clear) return true;
+    }
+  }
+  return false;
+}
+
+void Encaser::give_up_on_region() {
+  result_.region_used = result_.region;
+  partition_ = std::make_unique<Partition>(polynomials_, kernel_);
+  partition_->lines = sides();
+  isolate_crossings();
+  find_critical_regions();
+  OpenCell cell;
+  const int n = static_cast<int>(partition_->lines.size());
+  for (int k = 0; k < n; ++k) {
+    cell.vertices.push_back(meet(partition_->lines[(k + n - 1) % n], partition_->lines[k]));
+    cell.edges.push_back({k, {}});
+  }
+  finished_.push_back({std::move(cell), CellState::Undecided, {}});
+  budget_ = "the curves' crossings with the region's sides could not be told apart";
+  finish_cells();
+}
+
+std::vector<Box<2>> Encaser::clusters_of(const std::vector<Box<2>>& unresolved) const {
+  std::vector<Box<2>> clusters;
+  const std::vector<int> component = connected_components(unresolved);
+  for (std::size_t i = 0; i < unresolved.size(); ++i) {
+    const std::size_t k = component[i];
+    if (k == clusters.size())
+      clusters.push_back(unresolved[i]);
+    else
+      clusters[k] = hull(clusters[k], unresolved[i]);
+  }
+  return clusters;
+}
+
+void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
+                     Unresolved::Kind kind, std::vector<int> curves) {
+  std::string names;
+  for (const int c : curves)
+    names += (names.empty() ? "'" : " and '") + result_.curves[c].name + "'";
+  const SubdivisionLimits limits;
+  for (const Box<2>& box : clusters_of(unresolved)) {
+    Unresolved entry;
+    entry.box = box;
+    entry.has_box = true;
+    entry.curves = curves;
+    bool at_cap = true;
+    for (const Box<2>& leaf : unresolved)
+      if (box.contains(leaf))
+        for (int i = 0; i < 2; ++i)
+          at_cap = at_cap && leaf.width(i) <= 16 * limits.smallest * root.width(i);
+    if (at_cap) {
+      entry.kind = kind;
+      entry.reason = kind == Unresolved::Kind::Contact
+                         ? "curves " + names + " touch, nearly touch or meet at a singular point"
+                         : "curve " + names + " is singular or nearly singular";
+      result_.degenerate.push_back(std::move(entry));
+    } else {
+      entry.kind = Unresolved::Kind::Budget;
+      entry.reason =
+          (kind == Unresolved::Kind::Contact
+               ? "the limit on boxes was reached before curves " + names + " were told apart"
+               : "the limit on boxes was reached before critical points of curve " + names +
+                     " were settled");
+      result_.undecided.push_back(std::move(entry));
+    }
+  }
+}
+
+void Encaser::isolate_crossings() {
+  result_.crossing_covers.clear();
+  result_.degenerate.erase(std::remove_if(result_.degenerate.begin(), result_.degenerate.end(),
+                                          [](const Unresolved& u) { return u.has_box; }),
+                           result_.degenerate.end());
+  result_.undecided.clear();
+  const std::vector<Line> half_planes = sides();
+  const Box<2> box = result_.region_used.bounding_box();
+  const int n = static_cast<int>(polynomials_.size());
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j) {
+      RootIsolation<2> roots = isolate_roots<2>({&polynomials_[i], &polynomials_[j]}, box,
+                                                half_planes, SubdivisionLimits{}, kernel_);
+      result_.statistics.root_boxes += roots.boxes;
+      const int first = static_cast<int>(partition_->crossings.size());
+      for (const Box<2>& root : roots.roots) {
+        Crossing crossing;
+        crossing.curves = {i, j};
+        crossing.box = root;
+        crossing.point = root.center();
+        partition_->crossings.push_back(crossing);
+      }
+      for (int& token : roots.tokens)
+        if (token >= 0) token += first;
+      report(roots.unresolved, roots.root_box, Unresolved::Kind::Contact, {i, j});
+      result_.crossing_covers.push_back({{i, j}, roots.root_box, std::move(roots.tokens)});
+    }
+  // Boxes of different pairs that meet: three curves through one point, as far as can be told.
+  std::vector<Box<2>> boxes;
+  for (const Crossing& crossing : partition_->crossings) boxes.push_back(crossing.box);
+  const std::vector<int> component = connected_components(boxes);
+  std::vector<std::vector<int>> groups(boxes.size());
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    groups[component[k]].push_back(static_cast<int>(k));
+  for (const auto& group : groups) {
+    if (group.size() < 2) continue;
+    Unresolved entry;
+    entry.kind = Unresolved::Kind::Concurrency;
+    entry.has_box = true;
+    entry.box = boxes[group[0]];
+    for (const int k : group) {
+      entry.box = hull(entry.box, boxes[k]);
+      for (const int c : partition_->crossings[k].curves)
+        if (std::find(entry.curves.begin(), entry.curves.end(), c) == entry.curves.end())
+          entry.curves.push_back(c);
+    }
+    std::sort(entry.curves.begin(), entry.curves.end());
+    entry.reason = "three or more curves meet or nearly meet in a point";
+    result_.degenerate.push_back(std::move(entry));
+  }
+}
+
+void Encaser::find_critical_regions() {
+  const std::vector<Line> half_planes = sides();
+  const Box<2> box = result_.region_used.bounding_box();
+  for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
+    CriticalRegions found =
+        critical_regions(polynomials_[c], c, box, half_planes, SubdivisionLimits{}, kernel_);
+    result_.statistics.critical_boxes += found.boxes;
+    const int first = static_cast<int>(partition_->critical_regions.size());
+    for (int& token : found.tokens)
+      if (token >= 0) token += first;
+    for (CriticalRegion& region : found.regions)
+      partition_->critical_regions.push_back(std::move(region));
+    report(found.unresolved, found.root_box, Unresolved::Kind::SingularPoint, {c});
+    result_.critical_covers.push_back({c, found.root_box, std::move(found.tokens)});
+  }
+}
+
+void Encaser::collect_zones() {
+  // Boxes that touch make one zone.
+  std::vector<Box<2>> boxes;
+  for (const auto* list : {&result_.degenerate, &result_.undecided})
+    for (const Unresolved& entry : *list)
+      if (entry.has_box) boxes.push_back(entry.box);
+  for (std::size_t before = 0; before != boxes.size();) {
+    before = boxes.size();
+    boxes = clusters_of(boxes);
+  }
+  const double diameter = result_.region_used.bounding_box().largest_width();
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const Box<2>& box = boxes[k];
+    // Wide enough to be cheap to surround, but clear of every other feature.
+    double margin = 0x1p-6 * diameter;
+    const auto keep_off = [&](const Box<2>& other) {
+      double gap = 0;
+      for (int i = 0; i < 2; ++i)
+        gap = std::max({gap, other.lo[i] - box.hi[i], box.lo[i] - other.hi[i]});
+      if (gap > 0) margin = std::min(margin, 0.3 * gap);
+    };
+    for (std::size_t j = 0; j < boxes.size(); ++j)
+      if (j != k) keep_off(boxes[j]);
+    for (const Crossing& crossing : partition_->crossings) keep_off(crossing.box);
+    margin = std::max(margin, 2 * box.largest_width());
+    Zone zone{box, box};
+    for (int i = 0; i < 2; ++i) {
+      zone.clearance.lo[i] -= margin;
+      zone.clearance.hi[i] += 1.07 * margin;
+    }
+    partition_->zones.push_back(zone);
+  }
+}
+
+Encaser::Shape Encaser::shape_of(const OpenCell& cell) const {
+  const std::vector<int> word = partition_->word(cell);
+  std::vector<int> counts = partition_->crossing_counts(cell);
+  int curves = 0;
+  for (const int count : counts) {
+    if (count > 2) return Shape::Complex;
+    curves += count > 0;
+  }
+  if (curves < 2) return cell.crossings.empty() ? Shape::Simple : Shape::Complex;
+  if (curves > 2) return Shape::Complex;
+  const bool alternates =
+      partition_->line_crossings[word[0]].curve == partition_->line_crossings[word[2]].curve;
+  if (cell.crossings.size() == 1 && alternates) return Shape::Simple;
+  if (cell.crossings.empty() && !alternates) return Shape::Relaxable;
+  return Shape::Complex;
+}
+
+bool Encaser::out_of_budget() {
+  if (!budget_.empty()) return true;
+  if (static_cast<int>(finished_.size()) >= options_.max_cells)
+    budget_ = "the limit of " + std::to_string(options_.max_cells) + " cells was reached";
+  else if (cpu_seconds() - start_ > options_.max_seconds)
+    budget_ = "the limit of " + decimal(options_.max_seconds) + " CPU seconds was reached";
+  return !budget_.empty();
+}
+
+/// The line that splits a cell next, or nothing and the state it is settled in.
+std::optional<Cut> Encaser::next_cut(const OpenCell& cell, CellState* settled) {
+  Partition& partition = *partition_;
+  // Zones first: cut the cell down to the clearance of one.
+  if (!cell.zones.empty()) {
+    Box<2> bounds{middle(cell.vertices[0]), middle(cell.vertices[0])};
+    for (const auto& v : cell.vertices) bounds = hull(bounds, Box<2>{middle(v), middle(v)});
+    const double diameter = result_.region_used.bounding_box().largest_width();
+    for (const int k : cell.zones) {
+      const Zone& zone = partition.zones[k];
+      if (zone.box.largest_width() > diameter / 8) break;
+      for (const double scale : {1.0, 0.83, 1.21}) {
+        Box<2> around = zone.clearance;
+        for (int i = 0; i < 2; ++i) {
+          around.lo[i] = zone.box.lo[i] - scale * (zone.box.lo[i] - zone.clearance.lo[i]);
+          around.hi[i] = zone.box.hi[i] + scale * (zone.clearance.hi[i] - zone.box.hi[i]);
+        }
+        if (around.contains(bounds)) break;
+        if (auto cut = best_cut_along(partition, cell, around)) return cut;
+      }
+    }
+    // What is left of a cell around a zone is not proved.
+    bool budget = false;
+    for (const Unresolved& entry : result_.undecided)
+      for (const int k : cell.zones)
+        budget = budget || (entry.has_box && partition.zones[k].box.contains(entry.box));
+    *settled = budget ? CellState::Undecided : CellState::Degenerate;
+    return std::nullopt;
+  }
+  const Shape shape = shape_of(cell);
+  const bool relax =
+      shape == Shape::Relaxable && (options_.relaxed || cell.stall >= options_.relax_after_splits);
+  if (shape == Shape::Simple || relax) {
+    // Loops last: a ray for every critical region inside, or a split through it.
+    certificates_.clear();
+    for (const int k : cell.critical_regions) {
+      if (auto certificate = certify_no_loop(partition, cell, k)) {
+        certificates_.push_back(*certificate);
+        continue;
+      }
+      ++result_.statistics.loop_splits;
+      for (const Box<2>& box : partition.critical_regions[k].boxes)
+        if (auto cut = best_cut_through(partition, cell, box.center())) return cut;
+      if (auto cut = any_cut(partition, cell)) return cut;
+      *settled = CellState::Undecided;
+      return std::nullopt;
+    }
+    *settled = relax ? CellState::Relaxed : CellState::Certified;
+    return std::nullopt;
+  }
+  if (cell.depth < 400) {
+    if (auto cut = best_cut(partition, cell)) return cut;
+    if (auto cut = any_cut(partition, cell)) return cut;
+  }
+  *settled = CellState::Undecided;
+  return std::nullopt;
+}
+
+void Encaser::split_cells() {
+  Partition& partition = *partition_;
+  for (std::size_t k = 0; k < partition.crossings.size(); ++k) {
+    bool inside = true;
+    for (const Line& line : sides())
+      inside = inside && side(line, partition.crossings[k].box, kernel_) == Sign::Negative;
+    if (inside)
+      first_cell_.crossings.push_back(static_cast<int>(k));
+    else
+      partition.crossings[k].location = Location::Outside;
+  }
+  for (std::size_t k = 0; k < partition.critical_regions.size(); ++k)
+    if (partition.inside(partition.critical_regions[k], first_cell_))
+      first_cell_.critical_regions.push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < partition.zones.size(); ++k) {
+    bool outside = false;
+    for (const Line& line : sides())
+      outside = outside || side(line, partition.zones[k].box, kernel_) == Sign::Positive;
+    if (!outside) first_cell_.zones.push_back(static_cast<int>(k));
+  }
+
+  std::vector<OpenCell> stack{first_cell_};
+  const double features = static_cast<double>(partition.crossings.size() + 1);
+  int until_progress = 0;
+  while (!stack.empty()) {
+    OpenCell cell = std::move(stack.back());
+    stack.pop_back();
+    if (options_.progress && ++until_progress % 64 == 0) {
+      const double done = static_cast<double>(finished_.size()) /
+                          (static_cast<double>(finished_.size() + stack.size()) + features);
+      if (!options_.progress("splitting cells", done)) budget_ = "the computation was cancelled";
+    }
+    CellState settled = CellState::Undecided;
+    std::optional<Cut> cut;
+    certificates_.clear();
+    if (!out_of_budget()) cut = next_cut(cell, &settled);
+    if (cut) {
+      OpenCell negative, positive;
+      // The order of the roots on the line could not be proved: any other line.
+      bool done = partition.apply(cell, std::move(*cut), &negative, &positive);
+      if (!done)
+        if (auto other = any_cut(partition, cell))
+          done = partition.apply(cell, std::move(*other), &negative, &positive);
+      if (done) {
+        ++result_.statistics.splits;
+        stack.push_back(std::move(positive));
+        stack.push_back(std::move(negative));
+        continue;
+      }
+      settled = CellState::Undecided;
+      certificates_.clear();
+    }
+    if (cell.parent >= 0)
+      (cell.positive ? partition.history[cell.parent].positive
+                     : partition.history[cell.parent].negative) =
+          ~static_cast<int>(finished_.size());
+    finished_.push_back({std::move(cell), settled, std::move(certificates_)});
+  }
+}
+
+Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
+  Partition& partition = *partition_;
+  Cell cell;
+  cell.state = state;
+  cell.depth = open.depth;
+  const int n = static_cast<int>(open.edges.size());
+  for (int k = 0; k < n; ++k) {
+    const auto& edge = open.edges[k];
+    cell.vertices.push_back(
+        {open.edges[(k + n - 1) % n].line, edge.line, 0, middle(open.vertices[k])});
+    for (std::size_t i = 0; i < edge.crossings.size(); ++i) {
+      if (i > 0) {
+        // A cut between two crossings of one edge; both cells beside it compute the same.
+        const LineCrossing *a = &partition.line_crossings[edge.crossings[i - 1]],
+                           *b = &partition.line_crossings[edge.crossings[i]];
+        if (a->lo > b->lo) std::swap(a, b);
+        const double at = a->hi + 0.5 * (b->lo - a->hi);
+        cell.vertices.push_back({edge.line, edge.line, at,
+                                 middle(point_on_line(partition.lines[edge.line], Interval(at)))});
+      }
+      cell.word.push_back(edge.crossings[i]);
+    }
+  }
+  for (const int k : open.crossings) partition.crossings[k].cell = id;
+  if (state == CellState::Certified || state == CellState::Relaxed) {
+    if (!open.crossings.empty()) cell.crossing = open.crossings.front();
+    for (std::size_t i = 0; i < cell.word.size(); ++i)
+      for (std::size_t j = i + 1; j < cell.word.size(); ++j) {
+        const int c = partition.line_crossings[cell.word[i]].curve;
+        if (partition.line_crossings[cell.word[j]].curve == c)
+          cell.branches.push_back({c, cell.word[i], cell.word[j]});
+      }
+  }
+  return cell;
+}
+
+void Encaser::finish_cells() {
+  Partition& partition = *partition_;
+  // Neighbours on one edge get a gap, so that the edge can be cut between them.
+  for (const Finished& f : finished_)
+    for (const auto& edge : f.cell.edges)
+      for (std::size_t i = 0; i + 1 < edge.crossings.size(); ++i) {
+        LineCrossing *a = &partition.line_crossings[edge.crossings[i]],
+                     *b = &partition.line_crossings[edge.crossings[i + 1]];
+        if (a->lo > b->lo) std::swap(a, b);
+        for (int tries = 0; tries < 80; ++tries) {
+          if (a->hi < b->lo && a->hi + 0.5 * (b->lo - a->hi) > a->hi) break;
+          for (LineCrossing* c : {a, b}) {
+            RootInterval root{c->lo, c->hi};
+            refine_on_line(polynomials_[c->curve], partition.lines[edge.line], &root, kernel_);
+            c->lo = root.lo;
+            c->hi = root.hi;
+          }
+        }
+      }
+  int unfinished = 0;
+  for (std::size_t k = 0; k < finished_.size(); ++k) {
+    Finished& f = finished_[k];
+    Cell cell = finish(f.cell, f.state, static_cast<int>(k));
+    if (f.state == CellState::Certified || f.state == CellState::Relaxed)
+      cell.loop_certificates = std::move(f.certificates);
+    if (f.state == CellState::Undecided && f.cell.zones.empty()) ++unfinished;
+    result_.cells.push_back(std::move(cell));
+  }
+  if (unfinished > 0) {
+    Unresolved entry;
+    entry.kind = Unresolved::Kind::Budget;
+    entry.reason =
+        std::to_string(unfinished) + (unfinished == 1 ? " cell is" : " cells are") +
+        " not settled: " + (budget_.empty() ? "no splitting line could be proved" : budget_);
+    result_.undecided.push_back(std::move(entry));
+  }
+  result_.lines = std::move(partition.lines);
+  result_.line_crossings = std::move(partition.line_crossings);
+  result_.crossings = std::move(partition.crossings);
+  result_.critical_regions = std::move(partition.critical_regions);
+  result_.history = std::move(partition.history);
+}
+
+void Encaser::decide_outcome() {
+  locate_crossings(result_, kernel_);
+  result_.outcome = !result_.undecided.empty()    ? Outcome::Undecided
+                    : !result_.degenerate.empty() ? Outcome::Degenerate
+                                                  : Outcome::Certified;
+  for (const Cell& cell : result_.cells)
+    if (cell.state == CellState::Undecided) result_.outcome = Outcome::Undecided;
+  Statistics& s = result_.statistics;
+  s.decisions = kernel_.decisions;
+  s.restrictions = kernel_.restrictions;
+  s.expansions = kernel_.expansions;
+  s.mpfr_expansions = kernel_.mpfr_expansions;
+  result_.seconds = cpu_seconds() - start_;
+}
+
+}  // namespace
+
+Result<Encasement> encase(const std::vector<NamedCurve>& curves, const Region& region,
+                          const EncaseOptions& options) {
+  Encaser run(curves, region, options);
+  if (const Status bad = run.check_input()) return *bad;
+  run.separate_components();
+  if (run.open_region()) {
+    run.find_critical_regions();
+    run.collect_zones();
+    run.split_cells();
+    run.finish_cells();
+  } else {
+    run.give_up_on_region();
+  }
+  run.decide_outcome();
+  return run.take_result();
+}
+
+}  // namespace encase

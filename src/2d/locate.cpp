@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "2d/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/components.hpp"
+#include "common/segments.hpp"
+#include "common/substitute.hpp"
+#include "encase/crossing.hpp"
+
+namespace encase {
+
+std::optional<Region> enlarged(const Region& region, int attempt) {
+  const int n = region.side_count();
+  Point<2> center{0, 0};
+  std::vector<Point<2>> corners(n);
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < 2; ++i) {
+      corners[k][i] = region.corners[k][i].get_d();
+      center[i] += corners[k][i] / n;
+    }
+  std::vector<RationalPoint<2>> moved(n);
+  for (int k = 0; k < n; ++k) {
+    // Fractions by the golden ratio: different for every corner, coordinate and attempt.
+    for (int i = 0; i < 2; ++i) {
+      const double turn = std::fmod(0.6180339887498949 * (7 * attempt + 3 * k + i), 1.0);
+      const double growth = std::ldexp(1 + 0.2 * turn, -33 - (attempt - 1) % 3);
+      moved[k][i] = Rational(corners[k][i] + growth * (corners[k][i] - center[i]));
+    }
+  }
+  auto result = make_region(std::move(moved));
+  if (!result || result.value().side_count() != n) return std::nullopt;
+  Kernel kernel;
+  for (int k = 0; k < n; ++k)
+    for (const auto& corner : region.corners)
+      if (side(result.value().side(k), corner, kernel) != Sign::Negative) return std::nullopt;
+  return std::move(result).value();
+}
+
+namespace {
+
+/// Whether the pair's only common point in the crossing's box lies on the line: the restrictions of
+/// both curves to the line have a common root there. Exact.
+bool on_line(const Encasement& encasement, const Crossing& crossing, const Line& line) {
+  const Polynomial<1> common =
+      gcd(restrict_exactly(encasement.curves[crossing.curves[0]].polynomial, line),
+          restrict_exactly(encasement.curves[crossing.curves[1]].polynomial, line));
+  if (common.is_zero() || common.is_constant()) return false;
+  // The part of the line in the box, in its parameter p; the other coordinate is q = u p + v.
+  const auto c = line.exact();
+  const int p = parameter_axis(line), q = 1 - p;
+  const Rational u = -c[p] / c[q], v = -c[2] / c[q];
+  Rational lo(crossing.box.lo[p]), hi(crossing.box.hi[p]);
+  const Rational low(crossing.box.lo[q]), high(crossing.box.hi[q]);
+  if (u == 0) {
+    if (v < low || v > high) return false;
+  } else {
+    Rational first((low - v) / u), last((high - v) / u);
+    if (first > last) std::swap(first, last);
+    lo = std::max(lo, first);
+    hi = std::min(hi, last);
+  }
+  return lo <= hi && count_real_roots(common, lo, hi) > 0;
+}
+
+}  // namespace
+
+void locate_crossings(Encasement& encasement, Kernel& kernel) {
+  if (encasement.region_used.corners == encasement.region.corners) return;
+  for (std::size_t id = 0; id < encasement.crossings.size(); ++id) {
+    Crossing& crossing = encasement.crossings[id];
+    if (crossing.location == Location::Outside) continue;
+    for (int k = 0; k < encasement.region.side_count(); ++k) {
+      const Line line = encasement.region.side(k);
+      std::optional<Sign> where = side(line, crossing.box, kernel);
+      if (!where && on_line(encasement, crossing, line)) where = Sign::Zero;
+      // Not on the line: some precision tells the side.
+      for (int bits = 64; !where && bits <= (1 << 20); bits *= 2) {
+        const auto box = refine(encasement, static_cast<int>(id), bits);
+        if (!box) break;
+        int signs = 0;
+        for (int corner = 0; corner < 4; ++corner)
+          signs += static_cast<int>(
+              side(line,
+                   RationalPoint<2>{(corner & 1 ? box.value().hi : box.value().lo)[0],
+                                    (corner & 2 ? box.value().hi : box.value().lo)[1]},
+                   kernel));
+        if (signs == 4) where = Sign::Positive;
+        if (signs == -4) where = Sign::Negative;
+      }
+      if (where == Sign::Positive) {
+        crossing.location = Location::Outside;
+        break;
+      }
+      if (where == Sign::Zero) crossing.location = Location::OnBoundary;
+      if (!where) {
+        Unresolved entry;
+        entry.kind = Unresolved::Kind::Budget;
+        entry.reason =
+            "crossing " + std::to_string(id) + " could not be told from the region's boundary";
+        encasement.undecided.push_back(std::move(entry));
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace encase

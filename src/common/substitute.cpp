@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "common/substitute.hpp"
+
+#include <algorithm>
+
+namespace encase {
+
+template <int K, int D>
+Polynomial<K> substitute(const Polynomial<D>& f, const std::array<Polynomial<K>, D>& replacements) {
+  std::array<std::vector<Polynomial<K>>, D> powers;
+  for (int i = 0; i < D; ++i) {
+    powers[i].push_back(Polynomial<K>::constant(1));
+    for (int k = 1; k <= f.degree(i); ++k) powers[i].push_back(powers[i].back() * replacements[i]);
+  }
+  std::vector<typename Polynomial<K>::Term> terms;
+  for (const auto& term : f.terms()) {
+    Polynomial<K> product = Polynomial<K>::constant(term.coefficient);
+    for (int i = 0; i < D; ++i)
+      if (term.exponent[i] > 0) product = product * powers[i][term.exponent[i]];
+    terms.insert(terms.end(), product.terms().begin(), product.terms().end());
+  }
+  return Polynomial<K>::from_terms(std::move(terms));
+}
+
+template Polynomial<1> substitute<1, 2>(const Polynomial<2>&, const std::array<Polynomial<1>, 2>&);
+template Polynomial<1> substitute<1, 3>(const Polynomial<3>&, const std::array<Polynomial<1>, 3>&);
+template Polynomial<2> substitute<2, 2>(const Polynomial<2>&, const std::array<Polynomial<2>, 2>&);
+template Polynomial<2> substitute<2, 3>(const Polynomial<3>&, const std::array<Polynomial<2>, 3>&);
+
+Polynomial<1> restrict_exactly(const Polynomial<2>& f, const Line& line) {
+  const auto c = line.exact();
+  const int p = parameter_axis(line), q = 1 - p;
+  std::array<Polynomial<1>, 2> at;
+  at[p] = Polynomial<1>::variable(0);
+  at[q] = Polynomial<1>::constant(Rational(-c[2] / c[q])) +
+          Polynomial<1>::constant(Rational(-c[p] / c[q])) * Polynomial<1>::variable(0);
+  return substitute<1, 2>(f, at);
+}
+
+}  // namespace encase
