@@ -133,23 +133,18 @@ Result<AtomicDirectory> AtomicDirectory::create(const std::string& path) {
 }
 
 Status AtomicDirectory::commit() {
-  // rename() replaces only an empty directory: the old one is moved away first, and back if the new
-  // one cannot take its place.
   std::error_code failure;
-  std::string old;
-  if (fs::exists(path_, failure)) {
-    old = temporary_name(parent_of(path_));
-    fs::rename(path_, old, failure);
+  if (!fs::exists(path_, failure)) {
+    fs::rename(temporary_, path_, failure);
     if (failure) return cannot_write(path_, failure.message());
+    temporary_.clear();
+    return std::nullopt;
   }
-  fs::rename(temporary_, path_, failure);
-  if (failure) {
-    const std::string why = failure.message();
-    if (!old.empty()) fs::rename(old, path_, failure);
-    return cannot_write(path_, why);
+  for (const fs::directory_entry& entry : fs::directory_iterator(temporary_, failure)) {
+    fs::rename(entry.path(), fs::path(path_) / entry.path().filename(), failure);
+    if (failure) break;
   }
-  temporary_.clear();
-  if (!old.empty()) fs::remove_all(old, failure);
+  if (failure) return cannot_write(path_, failure.message());
   return std::nullopt;
 }
 

@@ -14,8 +14,8 @@ namespace encase {
 /// the path: a directory, a missing parent, no permission, no space.
 Status write_file(const std::string& path, std::string_view contents);
 
-/// A directory that is built under a temporary name beside its final place and appears there, under
-/// its own name, when it is complete. The temporary is removed by the destructor.
+/// A directory of files that are written under a temporary name beside their final place and appear
+/// there when all are complete. The temporary is removed by the destructor.
 class AtomicDirectory {
  public:
   /// `path` names the directory to be; its parent must exist. Io if it cannot be made.
@@ -28,7 +28,8 @@ class AtomicDirectory {
   /// Where to write until `commit`.
   const std::string& temporary() const { return temporary_; }
 
-  /// Puts the directory in its place, instead of a directory that may stand there.
+  /// Puts the directory in its place. If one stands there the files go into it, each replacing one
+  /// of its name; other files there are left alone.
   Status commit();
 
  private:

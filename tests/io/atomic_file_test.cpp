@@ -122,15 +122,18 @@ TEST_F(AtomicDirectoryTest, AppearsWhenCommitted) {
   EXPECT_EQ(entries(), 1);
 }
 
-TEST_F(AtomicDirectoryTest, ReplacesTheOldOneAsAWhole) {
+TEST_F(AtomicDirectoryTest, ReplacesFilesOfItsOwnAndLeavesOthersAlone) {
   fs::create_directory(path("d"));
-  ASSERT_FALSE(write_file(path("d/old"), "x"));
-  auto directory = AtomicDirectory::create(path("d"));
-  ASSERT_TRUE(directory.ok());
-  ASSERT_FALSE(write_file(directory.value().temporary() + "/new", "x"));
-  ASSERT_FALSE(directory.value().commit());
-  EXPECT_TRUE(fs::exists(path("d/new")));
-  EXPECT_FALSE(fs::exists(path("d/old")));
+  ASSERT_FALSE(write_file(path("d/other"), "x"));
+  ASSERT_FALSE(write_file(path("d/new"), "old"));
+  {
+    auto directory = AtomicDirectory::create(path("d"));
+    ASSERT_TRUE(directory.ok());
+    ASSERT_FALSE(write_file(directory.value().temporary() + "/new", "new"));
+    ASSERT_FALSE(directory.value().commit());
+  }
+  EXPECT_EQ(read(path("d/new")), "new");
+  EXPECT_EQ(read(path("d/other")), "x");
   EXPECT_EQ(entries(), 1);
 }
 
