@@ -72,6 +72,8 @@ bool check_regions(Claims& claims);
 /// crossings on it in the order of the parameter.
 struct Segment {
   int line = -1;
+  double lo = 0;  ///< the far ends of its corners' enclosures, in the line's parameter
+  double hi = 0;
   std::vector<int> crossings;
 };
 

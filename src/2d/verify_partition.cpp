@@ -30,6 +30,7 @@ class Replay {
   Partition run() {
     partition_.complete = replay();
     if (!partition_.complete) return std::move(partition_);
+    check_segments();
     for (std::size_t i = 0; i < e_.cells.size() && !claims_.full(); ++i)
       claims_.require(e_.cells[i].depth == depths_[i], "Cell ", i, " has depth ", depths_[i],
                       " in the history, not ", e_.cells[i].depth, ".");
@@ -63,9 +64,7 @@ class Replay {
   }
 
   /// Adds the segment of a line between two corners that are enclosed there. Its crossings are
-  /// those whose intervals lie between the corners; with the proved absence of roots everywhere
-  /// else, from the far end of one corner's enclosure to that of the other's, they are all zeros of
-  /// all curves, and no curve passes through a corner.
+  /// those whose intervals lie between the corners.
   int add_segment(int line_id, const Corner& from, const Corner& to) {
     const int axis = parameter_axis(line(line_id));
     // Both enclose one exact number as tightly as doubles can, so they are ordered by either bound.
@@ -75,6 +74,8 @@ class Replay {
 
     Segment segment;
     segment.line = line_id;
+    segment.lo = start.lo;
+    segment.hi = end.hi;
     for (int id : on_line_[static_cast<std::size_t>(line_id)]) {
       const LineCrossing& c = crossing(id);
       if (c.hi <= start.lo || c.lo >= end.hi) continue;
@@ -85,23 +86,38 @@ class Replay {
       claimed_[static_cast<std::size_t>(id)] = true;
       segment.crossings.push_back(id);
     }
-
-    for (std::size_t i = 0; i < claims_.curves.size() && !claims_.full(); ++i) {
-      const auto& f = claims_.curves[i];
-      double gap = start.lo;
-      for (int id : segment.crossings) {
-        const LineCrossing& c = crossing(id);
-        if (c.curve != static_cast<int>(i)) continue;
-        claims_.require(one_root_on_line(f, line(line_id), c.lo, c.hi, claims_.kernel),
-                        "Line crossing ", id, " is not proved to be one simple root of curve ", i,
-                        " on line ", line_id, ".");
-        check_gap(static_cast<int>(i), line_id, gap, c.lo);
-        gap = c.hi;
-      }
-      check_gap(static_cast<int>(i), line_id, gap, end.hi);
-    }
     partition_.segments.push_back(std::move(segment));
     return static_cast<int>(partition_.segments.size()) - 1;
+  }
+
+  /// Every line crossing is a simple root. On a segment that bounds a certified cell there are no
+  /// other zeros, from the far end of one corner's enclosure to that of the other's: the list is
+  /// complete, and no curve passes through a corner. Cells that are not certified claim no more
+  /// than what they list.
+  void check_segments() {
+    std::vector<bool> complete(partition_.segments.size(), false);
+    for (std::size_t i = 0; i < e_.cells.size(); ++i)
+      if (certified(e_.cells[i]))
+        for (const Edge& edge : partition_.cells[i])
+          complete[static_cast<std::size_t>(edge.segment)] = true;
+    for (std::size_t s = 0; s < partition_.segments.size(); ++s)
+      for (std::size_t i = 0; i < claims_.curves.size() && !claims_.full(); ++i)
+        check_curve_on_segment(static_cast<int>(i), partition_.segments[s], complete[s]);
+  }
+
+  void check_curve_on_segment(int curve, const Segment& segment, bool complete) {
+    const auto& f = claims_.curves[static_cast<std::size_t>(curve)];
+    double gap = segment.lo;
+    for (int id : segment.crossings) {
+      const LineCrossing& c = crossing(id);
+      if (c.curve != curve) continue;
+      claims_.require(one_root_on_line(f, line(segment.line), c.lo, c.hi, claims_.kernel),
+                      "Line crossing ", id, " is not proved to be one simple root of curve ", curve,
+                      " on line ", segment.line, ".");
+      if (complete) check_gap(curve, segment.line, gap, c.lo);
+      gap = c.hi;
+    }
+    if (complete) check_gap(curve, segment.line, gap, segment.hi);
   }
 
   void check_gap(int curve, int line_id, double lo, double hi) {
