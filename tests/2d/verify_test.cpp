@@ -293,6 +293,89 @@ TEST(Verify, ObjectsToWrongLineCrossings) {
       "lies on no edge");
 }
 
+TEST(Verify, ObjectsToIntervalsThatHoldCorners) {
+  // Longer intervals with one root each, but of an order that is not proved.
+  const Encasement e = circle_and_line();
+  const auto widened = [&](int line, int curve, double hi) {
+    Encasement mutant = e;
+    for (LineCrossing& c : mutant.line_crossings)
+      if (c.line == line && c.curve == curve && c.lo > 0) c.hi = hi;
+    return mutant;
+  };
+  expect_accepted(widened(1, 1, 0.7));
+  expect_objection(widened(1, 1, 0.8), "holds a corner");
+  expect_objection(widened(1, 1, 1.5), "holds an end of its segment");
+  expect_accepted(widened(4, 0, 0.8));
+  expect_objection(widened(4, 0, 0.9), "holds a corner");
+}
+
+TEST(Verify, ObjectsToWhatUncertifiedCellsClaim) {
+  expect_objection(
+      node(), [](auto& m) { m.cells[0].branches.push_back(m.cells[1].branches[0]); },
+      "is not certified but has branches");
+  Encasement e = circle_and_line();
+  e.outcome = Outcome::Undecided;
+  for (Cell& cell : e.cells) {
+    cell.state = CellState::Undecided;
+    cell.branches.clear();
+  }
+  expect_accepted(e);
+  expect_objection(
+      e, [](auto& m) { std::swap(m.cells[0].crossing, m.cells[1].crossing); },
+      "names a crossing that names another cell");
+}
+
+TEST(Verify, ObjectsToListsThatAreNotWellFormed) {
+  const Encasement e = circle_and_line();
+  expect_objection(
+      e, [](auto& m) { m.perturbation = -1; }, "perturbation");
+  expect_objection(
+      e, [](auto& m) { m.input[0].polynomial = {}; }, "Input curve 0");
+  expect_objection(
+      e, [](auto& m) { m.region.corners.resize(2); }, "region is not a polygon");
+  expect_objection(
+      e, [](auto& m) { m.region_used.corners.resize(2); }, "used is not a polygon");
+  expect_objection(
+      e,
+      [](auto& m) {
+        m.region.corners[0] = {5, 5};
+      },
+      "The region is not a convex");
+  expect_objection(
+      e, [](auto& m) { m.cells[0].branches[0].from = -1; }, "A branch of cell 0");
+  expect_objection(
+      e, [](auto& m) { m.cells[0].crossing = 2; }, "a crossing that does not exist");
+  expect_objection(
+      e, [](auto& m) { m.cells[0].state = static_cast<CellState>(4); }, "valid state");
+  expect_objection(
+      e, [](auto& m) { m.crossings[0].location = static_cast<Location>(3); }, "valid location");
+  expect_objection(
+      e, [](auto& m) { m.critical_regions[0].sign = Sign::Zero; }, "has no sign");
+  const Encasement n = node();
+  expect_objection(
+      n, [](auto& m) { m.degenerate[0].curves = {1}; }, "ascending indices of curves");
+  expect_objection(
+      n,
+      [](auto& m) {
+        m.degenerate[0].curves = {0, 0};
+      },
+      "ascending indices of curves");
+  expect_objection(
+      n, [](auto& m) { m.degenerate[0].box.lo[0] = std::nan(""); }, "has a bad box");
+  expect_objection(
+      n, [](auto& m) { m.degenerate[0].kind = static_cast<Unresolved::Kind>(6); }, "valid kind");
+  expect_objection(
+      n,
+      [](auto& m) {
+        m.undecided = m.degenerate;
+        m.undecided[0].kind = Unresolved::Kind::SharedComponent;
+      },
+      "is listed as undecided");
+  expect_objection(
+      n, [](auto& m) { m.degenerate[0].kind = Unresolved::Kind::SharedComponent; },
+      "a shared component that is not there");
+}
+
 TEST(Verify, ObjectsToAWrongWordOrBranch) {
   const Encasement e = circle_and_line();
   expect_objection(
