@@ -86,6 +86,15 @@ TEST(Base, RepeatedFactorsAreDividedOut) {
   EXPECT_EQ(base[2].polynomial, kX);
 }
 
+TEST(Base, ARepeatedFactorIsFoundInAnInputAlone) {
+  const auto circle = kX * kX + kY * kY - constant(1), line = kX - kY;
+  const auto square = coprime_square_free_base({circle * circle});
+  ASSERT_EQ(square.size(), 1U);
+  EXPECT_TRUE(proportional(square[0].polynomial, circle));
+  EXPECT_EQ(square[0].sources, (Sources{{0, 2}}));
+  EXPECT_EQ(coprime_square_free_base({circle * line.power(2)}).size(), 2U);
+}
+
 TEST(Base, FactorsOfTheSameSourcesStayTogether) {
   const auto a = kX + constant(1), b = kY * kY - kX, c = kX + kY;
   const std::vector<Polynomial<2>> inputs = {a * b, a * b * c};
@@ -184,7 +193,9 @@ TEST(Resultant, AgreesWithSubresultantsOverTheRationals) {
   const FlintContext<2> context;
   for (int round = 0; round < 20; ++round) {
     auto f = random_dense<2>(generator, 1 + round % 4), g = random_dense<2>(generator, 3);
-    if (round % 3 == 0) f = f * kX - f;  // leading coefficients that are not constant
+    // Leading coefficients that are not constant, and vanish where the resultant is evaluated.
+    if (round % 3 == 0) f = f + (kX - constant(2)) * kY.power(5) + (kY - constant(1)) * kX.power(5);
+    if (round % 3 == 1) g = g + kX * kY.power(4) + kY * kX.power(4);
     f = f * constant(Rational(1, 6));
     for (int axis = 0; axis < 2; ++axis) {
       FlintPolynomial<2> a(context), b(context), r(context);
