@@ -496,8 +496,16 @@ Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
   const int n = static_cast<int>(open.edges.size());
   for (int k = 0; k < n; ++k) {
     const auto& edge = open.edges[k];
-    cell.vertices.push_back(
-        {open.edges[(k + n - 1) % n].line, edge.line, 0, middle(open.vertices[k])});
+    const int before = open.edges[(k + n - 1) % n].line;
+    Vertex vertex{before, edge.line, 0, middle(open.vertices[k])};
+    // Lines that meet at a small angle are met exactly, then rounded.
+    for (int i = 0; i < 2; ++i)
+      if (open.vertices[k][i].width() > 0x1p-51 * std::fabs(vertex.point[i])) {
+        const auto at = exact_meet(partition.lines[before], partition.lines[edge.line]);
+        vertex.point = {nearest_double(at[0]), nearest_double(at[1])};
+        break;
+      }
+    cell.vertices.push_back(vertex);
     for (std::size_t i = 0; i < edge.crossings.size(); ++i) {
       if (i > 0) {
         // A cut between two crossings of one edge; both cells beside it compute the same.

@@ -23,7 +23,7 @@ std::optional<LoopCertificate> certify_no_loop(Partition& partition, const OpenC
     stops.push_back(middle(cell.vertices[k]));
     edges.push_back(k);
     for (const int id : cell.edges[k].crossings) {
-      stops.push_back(partition.position(id));
+      stops.push_back(partition.spot(id).at);
       edges.push_back(k);
     }
   }

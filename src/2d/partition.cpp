@@ -40,6 +40,7 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
 std::optional<OpenCell> Partition::open(const std::vector<Line>& sides) {
   lines = sides;
   line_crossings.clear();
+  spots_.clear();
   OpenCell cell;
   const int n = static_cast<int>(sides.size());
   for (int k = 0; k < n; ++k) {
@@ -120,9 +121,43 @@ std::vector<int> Partition::word(const OpenCell& cell) const {
   return result;
 }
 
-Point<2> Partition::position(int line_crossing) const {
-  const LineCrossing& c = line_crossings[line_crossing];
-  return middle(point_on_line(lines[c.line], Interval(c.lo + 0.5 * (c.hi - c.lo))));
+const Partition::Spot& Partition::spot(int line_crossing) {
+  while (static_cast<int>(spots_.size()) <= line_crossing) {
+    const LineCrossing& c = line_crossings[spots_.size()];
+    const FilteredPolynomial<2>& f = curves_[c.curve];
+    const Line& line = lines[c.line];
+    const int p = parameter_axis(line), q = 1 - p;
+    const auto point = [&](double t) {
+      Point<2> at;
+      at[p] = t;
+      at[q] = -(line.normal[p] * t + line.offset) / line.normal[q];
+      return at;
+    };
+    // The Illinois variant of the secant method.
+    double lo = c.lo, hi = c.hi, at_lo = f.approximate(point(lo)), at_hi = f.approximate(point(hi));
+    double t = lo + 0.5 * (hi - lo);
+    for (int i = 0, last = 0; i < 12 && hi - lo > 1e-9 * (c.hi - c.lo); ++i) {
+      t = lo - at_lo * (hi - lo) / (at_hi - at_lo);
+      if (!(t > lo && t < hi)) t = lo + 0.5 * (hi - lo);
+      const double value = f.approximate(point(t));
+      if (value == 0 || std::fabs(value) < 1e-7 * std::fabs(at_hi - at_lo)) break;
+      if ((value > 0) == (at_lo > 0)) {
+        lo = t;
+        at_lo = value;
+        if (last == -1) at_hi *= 0.5;
+        last = -1;
+      } else {
+        hi = t;
+        at_hi = value;
+        if (last == 1) at_lo *= 0.5;
+        last = 1;
+      }
+    }
+    const Point<2> at = point(t), g = f.gradient(at);
+    const double length = std::hypot(g[0], g[1]);
+    spots_.push_back({at, length > 0 ? Point<2>{g[0] / length, g[1] / length} : Point<2>{0, 0}});
+  }
+  return spots_[line_crossing];
 }
 
 double Partition::estimate(const std::vector<int>& counts, const std::vector<int>& inside) const {

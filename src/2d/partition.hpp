@@ -92,8 +92,12 @@ class Partition {
   std::vector<int> crossing_counts(const OpenCell& cell) const;
   /// The cyclic order of the line crossings, from vertex 0.
   std::vector<int> word(const OpenCell& cell) const;
-  /// About the position of a line crossing.
-  Point<2> position(int line_crossing) const;
+  /// About where a line crossing is, and the curve's unit gradient there; heuristics use them.
+  struct Spot {
+    Point<2> at;
+    Point<2> normal;
+  };
+  const Spot& spot(int line_crossing);
 
   /// A measure of the cells still to come: branches that no crossing ties together, at least 1.
   double estimate(const std::vector<int>& counts, const std::vector<int>& crossings) const;
@@ -107,6 +111,7 @@ class Partition {
 
   const std::vector<FilteredPolynomial<2>>& curves_;
   Kernel& kernel_;
+  std::vector<Spot> spots_;  ///< of the first line crossings
 };
 
 /// The midpoint of an enclosure.

@@ -29,13 +29,13 @@ struct BoundaryPoint {
   Point<2> normal;  ///< unit gradient
 };
 
-std::vector<BoundaryPoint> boundary_points(const Partition& partition, const OpenCell& cell) {
+std::vector<BoundaryPoint> boundary_points(Partition& partition, const OpenCell& cell) {
   std::vector<BoundaryPoint> points;
   std::vector<int> seen(partition.curves().size(), 0);
   for (const int id : partition.word(cell)) {
     const int c = partition.line_crossings[id].curve;
-    const Point<2> at = partition.position(id);
-    points.push_back({c, seen[c]++, at, unit(partition.curves()[c].gradient(at))});
+    const Partition::Spot& spot = partition.spot(id);
+    points.push_back({c, seen[c]++, spot.at, spot.normal});
   }
   return points;
 }

@@ -117,8 +117,8 @@ void to_bernstein(const std::vector<double>& taylor, int n, double taylor_error,
 
 template <class Number>
 Number make_number(int bits) {
-  if constexpr (std::is_same_v<Number, double>)
-    return 0.0;
+  if constexpr (std::is_floating_point_v<Number>)
+    return 0;
   else
     return Number(bits);
 }
@@ -127,7 +127,7 @@ Number make_number(int bits) {
 /// through at most 4 roundings a degree.
 template <class Number>
 void shift_and_scale(Number* c, int count, int stride, const Number& origin,
-                     const Number& direction, Number power) {
+                     const Number& direction, Number& power) {
   for (int i = 0; i + 1 < count; ++i)
     for (int j = count - 2; j >= i; --j) add_product(c[j * stride], origin, c[(j + 1) * stride]);
   for (int j = 1; j < count; ++j) {
@@ -178,10 +178,15 @@ FilteredPolynomial<D>::FilteredPolynomial(Polynomial<D> exact)
     exponent_ = std::max<long>(exponent_, e);
   }
   if (exact_.is_zero()) exponent_ = 0;
+  room_[0] = {degree_};
+  for (int level = 1; level < D; ++level)
+    for (const int left : room_[level - 1])
+      for (int k = 0; k <= degree_; ++k) room_[level].push_back(left - k);
   std::size_t size = 1;
   for (int i = 0; i < D; ++i) size *= degree_ + 1;
   coefficients_.assign(size, 0.0);
   magnitudes_.assign(size, 0.0);
+  extended_.assign(size, 0.0L);
   for (const auto& term : exact_.terms()) {
     std::size_t index = 0;
     for (int i = 0; i < D; ++i) index = index * (degree_ + 1) + term.exponent[i];
@@ -193,6 +198,8 @@ FilteredPolynomial<D>::FilteredPolynomial(Polynomial<D> exact)
     const double c = scaled.get_d();
     coefficients_[index] = c;
     magnitudes_[index] = std::fabs(c) * (1 + 0x1p-51);
+    exact_coefficients_ = exact_coefficients_ && Rational(c) == scaled;
+    assign(extended_[index], scaled);
   }
 }
 
@@ -201,6 +208,8 @@ template <class Number>
 const std::vector<Number>& FilteredPolynomial<D>::coefficients(int bits) const {
   if constexpr (std::is_same_v<Number, double>) {
     return coefficients_;
+  } else if constexpr (std::is_same_v<Number, long double>) {
+    return extended_;
   } else {
     std::lock_guard lock(cache_->mutex);
     auto [entry, is_new] = cache_->by_bits.try_emplace(bits);
@@ -222,15 +231,15 @@ template <int D>
 double FilteredPolynomial<D>::absolute(const Point<D>& magnitude) const {
   // Horner in every variable, all terms non-negative: relative error at most gamma of the depth.
   thread_local std::vector<double> level;
-  level = magnitudes_;
-  std::size_t size = level.size();
   const int n = degree_ + 1;
-  for (int axis = D - 1; axis >= 0; --axis) {
+  std::size_t size = magnitudes_.size() / n;
+  level.resize(size);
+  for (int axis = D - 1; axis >= 0; --axis, size /= n) {
     const double x = magnitude[axis];
-    size /= n;
+    const double* from = axis == D - 1 ? magnitudes_.data() : level.data();
     for (std::size_t i = 0; i < size; ++i) {
       double sum = 0;
-      for (int k = n - 1; k >= 0; --k) sum = sum * x + level[i * n + k];
+      for (int k = room_[axis][i]; k >= 0; --k) sum = sum * x + from[i * n + k];
       level[i] = sum;
     }
   }
@@ -253,8 +262,9 @@ void FilteredPolynomial<D>::expand(const Box<D>& box, int net_degree, int bits, 
     reach[i] = (std::fabs(center[i]) + half[i]) * (1 + 0x1p-50);
   }
   const int n = degree_ + 1;
-  const int roundings = kCoefficientRoundings + D * 4 * degree_;
+  const int roundings = (exact_coefficients_ ? 0 : kCoefficientRoundings) + 3 * degree_ + D;
   const auto run = [&]<class Number>(std::vector<Number> c) {
+    Number power = make_number<Number>(bits);
     // The lines of the dense array along each axis; exponents of the others bound the length.
     std::size_t stride = c.size();
     for (int axis = 0; axis < D; ++axis) {
@@ -267,20 +277,21 @@ void FilteredPolynomial<D>::expand(const Box<D>& box, int net_degree, int bits, 
         int used = 0;
         for (std::size_t rest = first; rest > 0; rest /= n) used += static_cast<int>(rest % n);
         if (used < degree_)
-          shift_and_scale(&c[first], n - used, static_cast<int>(stride), origin, direction,
-                          make_number<Number>(bits));
+          shift_and_scale(&c[first], n - used, static_cast<int>(stride), origin, direction, power);
       }
     }
     double error = gamma(roundings, bits) * absolute(reach);
-    if constexpr (std::is_same_v<Number, double>) error += underflow<D>(reach, degree_);
+    if constexpr (std::is_floating_point_v<Number>) error += underflow<D>(reach, degree_);
     const std::vector<double> taylor = round_all(c, &error);
     to_bernstein<D>(taylor, degree_, error, net_degree, net);
   };
-  if (bits <= Kernel::kDoubleBits) {
-    run(coefficients<double>(bits));
-  } else {
+  if (Kernel::is_mpfr(bits)) {
     ++kernel.mpfr_expansions;
     run(coefficients<Mpfr>(bits));
+  } else if (bits == Kernel::kExtendedBits) {
+    run(coefficients<long double>(bits));
+  } else {
+    run(coefficients<double>(bits));
   }
 }
 
@@ -302,8 +313,6 @@ SegmentChart SegmentChart::between(const Point<2>& from, const Point<2>& to) {
 
 namespace {
 
-constexpr int kChartRoundings = 9;  // of the coordinates of a chart's origin and direction
-
 /// r = a line's coefficient (0, 1: normal, 2: offset); at most two roundings.
 template <class Number>
 void line_coefficient(const Line& line, int i, Number& r) {
@@ -323,6 +332,12 @@ SegmentChart SegmentChart::part(double lo, double hi) const {
   chart.lo_ = lo;
   chart.hi_ = hi;
   return chart;
+}
+
+int SegmentChart::roundings() const {
+  // On a line: a p, + c, / b, and two more for each of three rational coefficients that are
+  // rounded; between two points: sum or difference, times the middle, sum.
+  return on_line_ ? (line_.rational ? 9 : 3) : 5;
 }
 
 template <class Number>
@@ -390,19 +405,21 @@ void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, K
       reach[i] = 2 * (std::fabs(segment.from_[i]) + std::fabs(segment.to_[i])) * (1 + 0x1p-40);
   }
   const int n = degree_ + 1;
-  // Coefficient, Taylor shift of a row, Horner over the rows (a product and two sums each), and the
-  // roundings of each of at most degree_ coordinate factors.
-  const int roundings = kCoefficientRoundings + (4 + 3 + kChartRoundings) * degree_ + 2;
+  // A term x^i y^j: its coefficient, the Taylor shift of its row (3 i + 1), Horner over the rows (a
+  // product and two sums each: 3 j), and those of the i + j factors; i + j <= degree_.
+  const int roundings =
+      (exact_coefficients_ ? 0 : kCoefficientRoundings) + (3 + segment.roundings()) * degree_ + 4;
   const auto run = [&]<class Number>(std::vector<Number> c) {
     const Number zero = make_number<Number>(bits);
     std::array<Number, 2> origin{zero, zero}, direction{zero, zero};
     segment.origin_and_direction(&origin, &direction);
     // Row j: the coefficient of y^j, gathered as a polynomial in x, then in s.
     std::vector<Number> total(n, zero), row(n, zero);
+    Number power = zero;
     for (int j = degree_; j >= 0; --j) {
       const int length = n - j;
       for (int i = 0; i < length; ++i) row[i] = c[static_cast<std::size_t>(i) * n + j];
-      shift_and_scale(row.data(), length, 1, origin[0], direction[0], zero);
+      shift_and_scale(row.data(), length, 1, origin[0], direction[0], power);
       // total (degree < length - 1 so far) times (origin_y + direction_y s), plus the row.
       for (int k = length - 1; k >= 0; --k) {
         if (k < length - 1) multiply(total[k], origin[1]);
@@ -411,15 +428,17 @@ void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, K
       }
     }
     double error = gamma(roundings, bits) * absolute(reach);
-    if constexpr (std::is_same_v<Number, double>) error += underflow<2>(reach, degree_);
+    if constexpr (std::is_floating_point_v<Number>) error += underflow<2>(reach, degree_);
     const std::vector<double> taylor = round_all(total, &error);
     to_bernstein<1>(taylor, degree_, error, degree_, net);
   };
-  if (bits <= Kernel::kDoubleBits) {
-    run(coefficients<double>(bits));
-  } else {
+  if (Kernel::is_mpfr(bits)) {
     ++kernel.mpfr_expansions;
     run(coefficients<Mpfr>(bits));
+  } else if (bits == Kernel::kExtendedBits) {
+    run(coefficients<long double>(bits));
+  } else {
+    run(coefficients<double>(bits));
   }
 }
 
@@ -435,12 +454,10 @@ double FilteredPolynomial<D>::horner(const std::array<Coordinate, D>& point, int
     assign(x, point[axis]);
     const Number* from = axis == D - 1 ? source.data() : level.data();
     for (std::size_t i = 0; i < size; ++i) {
-      // Entry i belongs to exponents of the earlier variables, which bound the degree in this one.
-      int used = 0;
-      for (std::size_t rest = i; rest > 0; rest /= n) used += static_cast<int>(rest % n);
-      if (used > degree_) continue;
-      sum = from[i * n + (degree_ - used)];
-      for (int k = degree_ - used - 1; k >= 0; --k) {
+      const int room = room_[axis][i];
+      if (room < 0) continue;
+      sum = from[i * n + room];
+      for (int k = room - 1; k >= 0; --k) {
         multiply(sum, x);
         add(sum, from[i * n + k]);
       }
@@ -451,12 +468,20 @@ double FilteredPolynomial<D>::horner(const std::array<Coordinate, D>& point, int
 }
 
 template <int D>
+template <class Coordinate>
+double FilteredPolynomial<D>::horner_at(const std::array<Coordinate, D>& point, int bits) const {
+  if (Kernel::is_mpfr(bits)) return horner<Mpfr>(point, bits);
+  if (bits == Kernel::kExtendedBits) return horner<long double>(point, bits);
+  return horner<double>(point, bits);
+}
+
+template <int D>
 typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::with_error(double value,
                                                                         const Point<D>& magnitude,
                                                                         int roundings,
                                                                         int bits) const {
   double error = gamma(roundings, bits) * absolute(magnitude) + std::fabs(value) * 0x1p-52;
-  error += bits <= Kernel::kDoubleBits ? underflow<D>(magnitude, degree_) : 0x1p-1040;
+  error += Kernel::is_mpfr(bits) ? 0x1p-1040 : underflow<D>(magnitude, degree_);
   if (!std::isfinite(value) || std::isnan(error))
     return {0.0, std::numeric_limits<double>::infinity()};
   return {value, error * (1 + 0x1p-40)};
@@ -467,9 +492,8 @@ typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::evaluate(const Poin
                                                                       int bits) const {
   Point<D> magnitude;
   for (int i = 0; i < D; ++i) magnitude[i] = std::fabs(point[i]);
-  const double value =
-      bits <= Kernel::kDoubleBits ? horner<double>(point, bits) : horner<Mpfr>(point, bits);
-  return with_error(value, magnitude, kCoefficientRoundings + 2 * D * degree_ + D, bits);
+  return with_error(horner_at(point, bits), magnitude, kCoefficientRoundings + 2 * degree_ + D,
+                    bits);
 }
 
 template <int D>
@@ -479,30 +503,35 @@ double FilteredPolynomial<D>::approximate(const Point<D>& point) const {
 
 template <int D>
 Point<D> FilteredPolynomial<D>::gradient(const Point<D>& point) const {
-  // Forward differentiation through Horner's rule: every level carries the value and D derivatives.
+  // Forward differentiation through Horner's rule: every level carries the value and the
+  // derivatives with respect to the variables it has summed over.
   struct Jet {
     double value = 0;
     Point<D> derivative{};
   };
   const int n = degree_ + 1;
-  std::size_t size = coefficients_.size();
+  std::size_t size = coefficients_.size() / n;
   thread_local std::vector<Jet> level;
-  level.assign(size / n, Jet{});
-  for (int axis = D - 1; axis >= 0; --axis) {
+  level.resize(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    double value = 0, slope = 0;
+    for (int k = room_[D - 1][i]; k >= 0; --k) {
+      slope = slope * point[D - 1] + value;
+      value = value * point[D - 1] + coefficients_[i * n + k];
+    }
+    level[i].value = value;
+    level[i].derivative[D - 1] = slope;
+  }
+  for (int axis = D - 2; axis >= 0; --axis) {
     const double x = point[axis];
     size /= n;
     for (std::size_t i = 0; i < size; ++i) {
-      int used = 0;
-      for (std::size_t rest = i; rest > 0; rest /= n) used += static_cast<int>(rest % n);
       Jet sum;
-      for (int k = degree_ - used; k >= 0; --k) {
-        Jet term;
-        if (axis == D - 1)
-          term.value = coefficients_[i * n + k];
-        else
-          term = level[i * n + k];
-        for (int d = 0; d < D; ++d) sum.derivative[d] = sum.derivative[d] * x + term.derivative[d];
-        sum.derivative[axis] += sum.value;
+      for (int k = room_[axis][i]; k >= 0; --k) {
+        const Jet& term = level[i * n + k];
+        sum.derivative[axis] = sum.derivative[axis] * x + sum.value;
+        for (int d = axis + 1; d < D; ++d)
+          sum.derivative[d] = sum.derivative[d] * x + term.derivative[d];
         sum.value = sum.value * x + term.value;
       }
       level[i] = sum;
@@ -520,11 +549,9 @@ Sign FilteredPolynomial<D>::sign_at(const RationalPoint<D>& point, Kernel& kerne
     if (magnitude[i] < 0x1p-900) magnitude[i] = 0x1p-900;
   }
   // Every factor of a coordinate brings the (at most two) roundings of its conversion along.
-  const int roundings = kCoefficientRoundings + 4 * D * degree_ + D;
+  const int roundings = kCoefficientRoundings + 4 * degree_ + D;
   for (int bits = kernel.start_bits; bits > 0; bits = kernel.next(bits)) {
-    const double value =
-        bits <= Kernel::kDoubleBits ? horner<double>(point, bits) : horner<Mpfr>(point, bits);
-    const Value v = with_error(value, magnitude, roundings, bits);
+    const Value v = with_error(horner_at(point, bits), magnitude, roundings, bits);
     if (std::fabs(v.value) > v.error) {
       kernel.count(bits);
       return v.value > 0 ? Sign::Positive : Sign::Negative;

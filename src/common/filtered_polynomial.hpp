@@ -26,6 +26,8 @@ class SegmentChart {
  private:
   template <int>
   friend class FilteredPolynomial;
+  /// Roundings in a coordinate of the origin or direction, at most.
+  int roundings() const;
   template <class Number>
   void origin_and_direction(std::array<Number, 2>* origin, std::array<Number, 2>* direction) const;
 
@@ -82,13 +84,19 @@ class FilteredPolynomial {
   const std::vector<Number>& coefficients(int bits) const;
   template <class Number, class Coordinate>
   double horner(const std::array<Coordinate, D>& point, int bits) const;
+  template <class Coordinate>
+  double horner_at(const std::array<Coordinate, D>& point, int bits) const;
   Value with_error(double value, const Point<D>& magnitude, int roundings, int bits) const;
 
   Polynomial<D> exact_;
   int degree_ = 0;
   int exponent_ = 0;                  ///< the scaled polynomial is exact_ / 2^exponent_
   std::vector<double> coefficients_;  ///< dense, (degree_ + 1)^D, last variable fastest
-  std::vector<double> magnitudes_;    ///< |coefficients_|, rounded up
+  std::vector<long double> extended_;
+  bool exact_coefficients_ = true;  ///< the doubles are the scaled coefficients
+  /// For every prefix of exponents (level a: the first a of them), how far the next one may go.
+  std::array<std::vector<int>, D> room_;
+  std::vector<double> magnitudes_;  ///< |coefficients_|, rounded up
   std::shared_ptr<Cache> cache_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "encase/number.hpp"
 
@@ -11,6 +12,13 @@ namespace encase {
 /// the ladder takes the kernel as an argument. Not shared between threads.
 struct Kernel {
   static constexpr int kDoubleBits = 53;
+  /// The processor's extended format where it has one (x87), a quick step before MPFR.
+  static constexpr int kExtendedBits = 64;
+  static constexpr bool kHasExtended = std::numeric_limits<long double>::digits == kExtendedBits;
+
+  static constexpr bool is_mpfr(int bits) {
+    return bits > kDoubleBits && !(kHasExtended && bits == kExtendedBits);
+  }
 
   int start_bits = kDoubleBits;  ///< kDoubleBits: doubles first; more: MPFR from the start
   int max_bits = 848;
@@ -19,10 +27,15 @@ struct Kernel {
   std::int64_t mpfr_expansions = 0;  ///< those among them in MPFR
   std::int64_t restrictions = 0;     ///< those among them on segments
 
-  /// The precision after `bits`: 53, 106, 212, ... ; 0 when the cap is passed.
-  int next(int bits) const { return 2 * bits <= max_bits ? 2 * bits : 0; }
+  /// The precision after `bits`: 53, 64, 106, 212, ... ; 0 when the cap is passed.
+  int next(int bits) const {
+    int following = 2 * bits;
+    if (bits == kDoubleBits && kHasExtended) following = kExtendedBits;
+    if (bits == kExtendedBits && kHasExtended) following = 2 * kDoubleBits;
+    return following <= max_bits ? following : 0;
+  }
   void count(int bits) {
-    if (bits <= kDoubleBits)
+    if (!is_mpfr(bits))
       ++decisions.by_double;
     else
       ++decisions.by_mpfr;

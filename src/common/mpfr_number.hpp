@@ -44,24 +44,38 @@ class Mpfr {
 // What the templated algorithms ask of a number: each of these rounds at most twice.
 
 inline void assign(double& r, double x) { r = x; }
+inline void assign(long double& r, double x) { r = x; }
 inline void assign(Mpfr& r, double x) { mpfr_set_d(r.get(), x, MPFR_RNDN); }
 inline void assign(double& r, const Rational& x) { r = x.get_d(); }
+inline void assign(long double& r, const Rational& x) {
+  mpfr_t nearest;
+  mpfr_init2(nearest, 64);
+  mpfr_set_q(nearest, x.get_mpq_t(), MPFR_RNDN);
+  r = mpfr_get_ld(nearest, MPFR_RNDN);
+  mpfr_clear(nearest);
+}
 inline void assign(Mpfr& r, const Rational& x) { mpfr_set_q(r.get(), x.get_mpq_t(), MPFR_RNDN); }
 
 /// r += a * b
 inline void add_product(double& r, double a, double b) { r += a * b; }
+inline void add_product(long double& r, long double a, long double b) { r += a * b; }
 inline void add_product(Mpfr& r, const Mpfr& a, const Mpfr& b) {
   mpfr_fma(r.get(), a.get(), b.get(), r.get(), MPFR_RNDN);
 }
 inline void multiply(double& r, double a) { r *= a; }
+inline void multiply(long double& r, long double a) { r *= a; }
 inline void multiply(Mpfr& r, const Mpfr& a) { mpfr_mul(r.get(), r.get(), a.get(), MPFR_RNDN); }
 inline void add(double& r, double a) { r += a; }
+inline void add(long double& r, long double a) { r += a; }
 inline void add(Mpfr& r, const Mpfr& a) { mpfr_add(r.get(), r.get(), a.get(), MPFR_RNDN); }
 inline void divide(double& r, double a) { r /= a; }
+inline void divide(long double& r, long double a) { r /= a; }
 inline void divide(Mpfr& r, const Mpfr& a) { mpfr_div(r.get(), r.get(), a.get(), MPFR_RNDN); }
 inline void negate(double& r) { r = -r; }
+inline void negate(long double& r) { r = -r; }
 inline void negate(Mpfr& r) { mpfr_neg(r.get(), r.get(), MPFR_RNDN); }
 inline double to_double(double x) { return x; }
+inline double to_double(long double x) { return static_cast<double>(x); }
 inline double to_double(const Mpfr& x) { return mpfr_get_d(x.get(), MPFR_RNDN); }
 
 }  // namespace encase

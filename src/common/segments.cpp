@@ -200,8 +200,8 @@ typename FilteredPolynomial<2>::Value value_on_line(const FilteredPolynomial<2>&
   reach[q] = (std::fabs(line.normal[p]) * reach[p] + std::fabs(line.offset)) /
              std::fabs(line.normal[q]) * (1 + 0x1p-40);
   auto v = f.evaluate(at, Kernel::kDoubleBits);
-  // The other coordinate carries up to nine roundings (docs/error-bounds.md), relative to reach[q].
-  v.error = (v.error + (2 + 13.0 * f.degree() + 2) * 0x1.1p-53 * f.absolute(reach)) * (1 + 0x1p-40);
+  // The other coordinate carries up to nine roundings, relative to reach[q] (as in SegmentChart).
+  v.error = (v.error + (2 + 11.0 * f.degree() + 2) * 0x1.1p-53 * f.absolute(reach)) * (1 + 0x1p-40);
   return v;
 }
 
@@ -278,9 +278,11 @@ bool one_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double l
 namespace {
 
 /// f has no zero on the chart of a part of a segment; `chart(lo, hi)` for lo, hi in [-1, 1] or in
-/// the line's parameter.
-template <class Chart>
-bool no_root(const FilteredPolynomial<2>& f, double lo, double hi, Kernel& kernel, Chart chart) {
+/// the line's parameter. `same_sign(lo, hi)`: f is proved to have one sign, not zero, at both.
+template <class Chart, class SameSign>
+bool no_root(const FilteredPolynomial<2>& f, double lo, double hi, Kernel& kernel, Chart chart,
+             SameSign same_sign) {
+  Bernstein<1> derivative;
   std::vector<Piece> stack(1);
   stack[0].lo = lo;
   stack[0].hi = hi;
@@ -306,6 +308,10 @@ bool no_root(const FilteredPolynomial<2>& f, double lo, double hi, Kernel& kerne
       kernel.count(std::max(piece.bits, kernel.start_bits));
       continue;
     }
+    // A monotone function has no zero between values of one sign. (Needed where a zero lies just
+    // beyond an end.)
+    differentiate(piece.net, 0, &derivative);
+    if (sign_on_cube(derivative) && same_sign(piece.lo, piece.hi)) continue;
     // Values of opposite signs at the ends: there is a root.
     const double first = piece.net.b.front(), last = piece.net.b.back(), r = piece.net.radius;
     if ((first > r && last < -r) || (first < -r && last > r)) return false;
@@ -328,16 +334,22 @@ bool no_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo
                      Kernel& kernel) {
   if (!std::isfinite(lo) || !std::isfinite(hi) || !(lo <= hi)) return false;
   if (lo == hi) return sign_on_line(f, line, lo, kernel) != Sign::Zero;
-  return no_root(f, lo, hi, kernel,
-                 [&](double a, double b) { return SegmentChart::of_line(line, a, b); });
+  return no_root(
+      f, lo, hi, kernel, [&](double a, double b) { return SegmentChart::of_line(line, a, b); },
+      [&](double a, double b) {
+        const Sign sign = sign_on_line(f, line, a, kernel);
+        return sign != Sign::Zero && sign == sign_on_line(f, line, b, kernel);
+      });
 }
 
 bool no_root_on_segment(const FilteredPolynomial<2>& f, const Point<2>& from, const Point<2>& to,
                         Kernel& kernel) {
   for (int i = 0; i < 2; ++i)
     if (!std::isfinite(from[i]) || !std::isfinite(to[i])) return false;
-  return no_root(f, -1.0, 1.0, kernel,
-                 [&](double a, double b) { return SegmentChart::between(from, to).part(a, b); });
+  return no_root(
+      f, -1.0, 1.0, kernel,
+      [&](double a, double b) { return SegmentChart::between(from, to).part(a, b); },
+      [](double, double) { return false; });
 }
 
 std::array<Interval, 2> point_on_line(const Line& line, const Interval& parameter) {
