@@ -306,16 +306,19 @@ Result<Sign> compare_coordinate(const Encasement& encasement, int axis, int firs
     if (b.box().hi[axis] < a.box().lo[axis]) return Sign::Positive;
     if (bits < kBitsBeforeResultants) continue;
     if (!roots) {
-      Polynomial<1> product = Polynomial<1>::constant(1);
-      for (int id : {first, second}) {
+      roots = Polynomial<1>::constant(1);
+      const auto& pairs = encasement.crossings;
+      const bool same_pair = pairs[static_cast<std::size_t>(first)].curves ==
+                             pairs[static_cast<std::size_t>(second)].curves;
+      for (int id : same_pair ? std::vector{first} : std::vector{first, second}) {
         const auto r =
             resultant(curve_of(encasement, id, 0), curve_of(encasement, id, 1), 1 - axis);
         if (r.is_zero())
           return Error{Error::Code::Degenerate,
                        "the curves of crossing " + std::to_string(id) + " share a component"};
-        product = product * square_free_part(r);
+        const Polynomial<1> part = square_free_part(r);
+        roots = same_pair ? part : square_free_part(*roots * part);
       }
-      roots = square_free_part(product);
     }
     const Rational& lo = std::min(a.box().lo[axis], b.box().lo[axis]);
     const Rational& hi = std::max(a.box().hi[axis], b.box().hi[axis]);
