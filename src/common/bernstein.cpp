@@ -30,23 +30,35 @@ constexpr double kTiny = 0x1p-1060;  // more than what gradual underflow can los
 
 // The inner loops, over contiguous doubles.
 
+// (Extremes are taken in eight independent lanes: one chain of comparisons cannot be vectorised.)
+
 ENCASE_VECTORIZED double largest(const double* b, int count) {
-  double m = 0;
-  for (int i = 0; i < count; ++i) {
-    const double x = std::fabs(b[i]);
-    m = m < x ? x : m;
-  }
-  return m;
+  double lane[8] = {};
+  int i = 0;
+  for (; i + 8 <= count; i += 8)
+    for (int k = 0; k < 8; ++k) {
+      const double x = std::fabs(b[i + k]);
+      lane[k] = lane[k] < x ? x : lane[k];
+    }
+  for (; i < count; ++i) lane[0] = std::max(lane[0], std::fabs(b[i]));
+  return *std::max_element(lane, lane + 8);
 }
 
 ENCASE_VECTORIZED void extremes(const double* b, int count, double* lowest, double* highest) {
-  double lo = b[0], hi = b[0];
-  for (int i = 0; i < count; ++i) {
-    lo = b[i] < lo ? b[i] : lo;
-    hi = b[i] > hi ? b[i] : hi;
+  double lo[8], hi[8];
+  for (int k = 0; k < 8; ++k) lo[k] = hi[k] = b[0];
+  int i = 0;
+  for (; i + 8 <= count; i += 8)
+    for (int k = 0; k < 8; ++k) {
+      lo[k] = b[i + k] < lo[k] ? b[i + k] : lo[k];
+      hi[k] = b[i + k] > hi[k] ? b[i + k] : hi[k];
+    }
+  for (; i < count; ++i) {
+    lo[0] = std::min(lo[0], b[i]);
+    hi[0] = std::max(hi[0], b[i]);
   }
-  *lowest = lo;
-  *highest = hi;
+  *lowest = *std::min_element(lo, lo + 8);
+  *highest = *std::max_element(hi, hi + 8);
 }
 
 /// One block of de Casteljau's algorithm at 1/2: t, of n + 1 rows of `inner`, becomes the upper

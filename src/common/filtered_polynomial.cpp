@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "common/mpfr_number.hpp"
+#include "common/vectorized.hpp"
 #include "encase/encasement.hpp"
 
 // Every quantity below is a sum of products of coefficients and coordinates. If each product passes
@@ -123,6 +124,15 @@ Number make_number(int bits) {
     return Number(bits);
 }
 
+/// r += a * x, entry by entry.
+ENCASE_VECTORIZED void add_multiple(double* r, double a, const double* x, int count) {
+  for (int i = 0; i < count; ++i) r[i] += a * x[i];
+}
+template <class Number>
+void add_multiple(Number* r, const Number& a, const Number* x, int count) {
+  for (int i = 0; i < count; ++i) add_product(r[i], a, x[i]);
+}
+
 /// p(x) -> p(origin + direction s), for `count` coefficients `stride` apart. A coefficient passes
 /// through at most 4 roundings a degree.
 template <class Number>
@@ -178,10 +188,6 @@ FilteredPolynomial<D>::FilteredPolynomial(Polynomial<D> exact)
     exponent_ = std::max<long>(exponent_, e);
   }
   if (exact_.is_zero()) exponent_ = 0;
-  room_[0] = {degree_};
-  for (int level = 1; level < D; ++level)
-    for (const int left : room_[level - 1])
-      for (int k = 0; k <= degree_; ++k) room_[level].push_back(left - k);
   std::size_t size = 1;
   for (int i = 0; i < D; ++i) size *= degree_ + 1;
   coefficients_.assign(size, 0.0);
@@ -227,23 +233,59 @@ const std::vector<Number>& FilteredPolynomial<D>::coefficients(int bits) const {
   }
 }
 
+// Horner's rule on whole blocks: the first variable is summed out of all coefficients at once, then
+// the next. The blocks of the dense array are contiguous.
+
+namespace {
+
+/// r = r * x + c, entry by entry.
+ENCASE_VECTORIZED void horner_step(double* r, double x, const double* c, int count) {
+  for (int i = 0; i < count; ++i) r[i] = r[i] * x + c[i];
+}
+template <class Number>
+void horner_step(Number* r, const Number& x, const Number* c, int count) {
+  for (int i = 0; i < count; ++i) {
+    multiply(r[i], x);
+    add(r[i], c[i]);
+  }
+}
+
+/// Sums out one variable of a dense array of n blocks; of block k only the first `used(k)` entries.
+template <class Number, class Used>
+void sum_out(Number* result, const Number* blocks, int n, int size, const Number& x, Used used) {
+  std::copy_n(blocks + static_cast<std::size_t>(n - 1) * size, size, result);
+  for (int k = n - 2; k >= 0; --k)
+    horner_step(result, x, blocks + static_cast<std::size_t>(k) * size, used(k));
+}
+
+}  // namespace
+
 template <int D>
 double FilteredPolynomial<D>::absolute(const Point<D>& magnitude) const {
-  // Horner in every variable, all terms non-negative: relative error at most gamma of the depth.
-  thread_local std::vector<double> level;
+  // All terms are non-negative: a relative error of at most gamma of the depth.
+  return sum<double>(magnitudes_, magnitude, Kernel::kDoubleBits) * 1.0000001;
+}
+
+template <int D>
+template <class Number, class Coordinate>
+Number FilteredPolynomial<D>::sum(const std::vector<Number>& coefficients,
+                                  const std::array<Coordinate, D>& point, int bits) const {
   const int n = degree_ + 1;
-  std::size_t size = magnitudes_.size() / n;
-  level.resize(size);
-  for (int axis = D - 1; axis >= 0; --axis, size /= n) {
-    const double x = magnitude[axis];
-    const double* from = axis == D - 1 ? magnitudes_.data() : level.data();
-    for (std::size_t i = 0; i < size; ++i) {
-      double sum = 0;
-      for (int k = room_[axis][i]; k >= 0; --k) sum = sum * x + from[i * n + k];
-      level[i] = sum;
-    }
+  int size = static_cast<int>(coefficients.size()) / n;
+  thread_local std::vector<Number> first, second;
+  first.resize(size, make_number<Number>(bits));
+  second.resize(size, make_number<Number>(bits));
+  Number x = make_number<Number>(bits);
+  const Number* from = coefficients.data();
+  for (int axis = 0; axis < D; ++axis, size /= n) {
+    assign(x, point[axis]);
+    // In two variables the block of x^k ends at the degree that k leaves; elsewhere it is full.
+    sum_out(first.data(), from, n, size, x,
+            [&](int k) { return D == 2 && axis == 0 ? n - k : size; });
+    first.swap(second);
+    from = second.data();
   }
-  return level[0] * 1.0000001;
+  return second[0];
 }
 
 template <int D>
@@ -414,17 +456,23 @@ void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, K
     std::array<Number, 2> origin{zero, zero}, direction{zero, zero};
     segment.origin_and_direction(&origin, &direction);
     // Row j: the coefficient of y^j, gathered as a polynomial in x, then in s.
-    std::vector<Number> total(n, zero), row(n, zero);
-    Number power = zero;
+    // Taylor's shift in x of all powers of y at once: row i holds the coefficients of x^i y^j.
+    for (int i = 0; i + 1 < n; ++i)
+      for (int k = n - 2; k >= i; --k)
+        add_multiple(&c[k * n], origin[0], &c[(k + 1) * n], n - 1 - k);
+    Number power = direction[0];
+    for (int k = 1; k < n; ++k) {
+      for (int j = 0; j < n - k; ++j) multiply(c[k * n + j], power);
+      multiply(power, direction[0]);
+    }
+    // Horner over the powers of y: total (in s) times (origin_y + direction_y s), plus column j.
+    std::vector<Number> total(n, zero);
     for (int j = degree_; j >= 0; --j) {
       const int length = n - j;
-      for (int i = 0; i < length; ++i) row[i] = c[static_cast<std::size_t>(i) * n + j];
-      shift_and_scale(row.data(), length, 1, origin[0], direction[0], power);
-      // total (degree < length - 1 so far) times (origin_y + direction_y s), plus the row.
       for (int k = length - 1; k >= 0; --k) {
-        if (k < length - 1) multiply(total[k], origin[1]);
+        multiply(total[k], origin[1]);
         if (k > 0) add_product(total[k], direction[1], total[k - 1]);
-        add(total[k], row[k]);
+        add(total[k], c[k * n + j]);
       }
     }
     double error = gamma(roundings, bits) * absolute(reach);
@@ -443,36 +491,11 @@ void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, K
 }
 
 template <int D>
-template <class Number, class Coordinate>
-double FilteredPolynomial<D>::horner(const std::array<Coordinate, D>& point, int bits) const {
-  const int n = degree_ + 1;
-  const std::vector<Number>& source = coefficients<Number>(bits);
-  std::size_t size = source.size() / n;
-  std::vector<Number> level(size, make_number<Number>(bits));
-  Number x = make_number<Number>(bits), sum = x;
-  for (int axis = D - 1; axis >= 0; --axis, size /= n) {
-    assign(x, point[axis]);
-    const Number* from = axis == D - 1 ? source.data() : level.data();
-    for (std::size_t i = 0; i < size; ++i) {
-      const int room = room_[axis][i];
-      if (room < 0) continue;
-      sum = from[i * n + room];
-      for (int k = room - 1; k >= 0; --k) {
-        multiply(sum, x);
-        add(sum, from[i * n + k]);
-      }
-      level[i] = sum;
-    }
-  }
-  return to_double(level[0]);
-}
-
-template <int D>
 template <class Coordinate>
 double FilteredPolynomial<D>::horner_at(const std::array<Coordinate, D>& point, int bits) const {
-  if (Kernel::is_mpfr(bits)) return horner<Mpfr>(point, bits);
-  if (bits == Kernel::kExtendedBits) return horner<long double>(point, bits);
-  return horner<double>(point, bits);
+  if (Kernel::is_mpfr(bits)) return to_double(sum<Mpfr>(coefficients<Mpfr>(bits), point, bits));
+  if (bits == Kernel::kExtendedBits) return to_double(sum<long double>(extended_, point, bits));
+  return sum<double>(coefficients_, point, bits);
 }
 
 template <int D>
@@ -498,46 +521,37 @@ typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::evaluate(const Poin
 
 template <int D>
 double FilteredPolynomial<D>::approximate(const Point<D>& point) const {
-  return horner<double>(point, Kernel::kDoubleBits);
+  return sum<double>(coefficients_, point, Kernel::kDoubleBits);
 }
 
 template <int D>
 Point<D> FilteredPolynomial<D>::gradient(const Point<D>& point) const {
-  // Forward differentiation through Horner's rule: every level carries the value and the
-  // derivatives with respect to the variables it has summed over.
-  struct Jet {
-    double value = 0;
-    Point<D> derivative{};
-  };
+  // Forward differentiation through Horner's rule: beside the block of values go the blocks of the
+  // derivatives with respect to the variables summed out so far.
   const int n = degree_ + 1;
-  std::size_t size = coefficients_.size() / n;
-  thread_local std::vector<Jet> level;
-  level.resize(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    double value = 0, slope = 0;
-    for (int k = room_[D - 1][i]; k >= 0; --k) {
-      slope = slope * point[D - 1] + value;
-      value = value * point[D - 1] + coefficients_[i * n + k];
-    }
-    level[i].value = value;
-    level[i].derivative[D - 1] = slope;
-  }
-  for (int axis = D - 2; axis >= 0; --axis) {
+  int size = static_cast<int>(coefficients_.size()) / n;
+  thread_local std::array<std::vector<double>, D + 1> jets, next;  // values, then derivatives
+  for (auto* list : {&jets, &next})
+    for (auto& block : *list) block.resize(size);
+  const double* from = coefficients_.data();
+  for (int axis = 0; axis < D; ++axis, size /= n) {
     const double x = point[axis];
-    size /= n;
-    for (std::size_t i = 0; i < size; ++i) {
-      Jet sum;
-      for (int k = room_[axis][i]; k >= 0; --k) {
-        const Jet& term = level[i * n + k];
-        sum.derivative[axis] = sum.derivative[axis] * x + sum.value;
-        for (int d = axis + 1; d < D; ++d)
-          sum.derivative[d] = sum.derivative[d] * x + term.derivative[d];
-        sum.value = sum.value * x + term.value;
-      }
-      level[i] = sum;
+    const auto used = [&](int k) { return D == 2 && axis == 0 ? n - k : size; };
+    for (int d = 0; d < axis; ++d)
+      sum_out(next[d + 1].data(), jets[d + 1].data(), n, size, x, used);
+    double *value = next[0].data(), *slope = next[axis + 1].data();
+    std::copy_n(from + static_cast<std::size_t>(n - 1) * size, size, value);
+    std::fill_n(slope, size, 0.0);
+    for (int k = n - 2; k >= 0; --k) {
+      horner_step(slope, x, value, used(k));
+      horner_step(value, x, from + static_cast<std::size_t>(k) * size, used(k));
     }
+    jets.swap(next);
+    from = jets[0].data();
   }
-  return level[0].derivative;
+  Point<D> result;
+  for (int d = 0; d < D; ++d) result[d] = jets[d + 1][0];
+  return result;
 }
 
 template <int D>

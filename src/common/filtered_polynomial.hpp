@@ -83,7 +83,8 @@ class FilteredPolynomial {
   template <class Number>
   const std::vector<Number>& coefficients(int bits) const;
   template <class Number, class Coordinate>
-  double horner(const std::array<Coordinate, D>& point, int bits) const;
+  Number sum(const std::vector<Number>& coefficients, const std::array<Coordinate, D>& point,
+             int bits) const;
   template <class Coordinate>
   double horner_at(const std::array<Coordinate, D>& point, int bits) const;
   Value with_error(double value, const Point<D>& magnitude, int roundings, int bits) const;
@@ -94,8 +95,6 @@ class FilteredPolynomial {
   std::vector<double> coefficients_;  ///< dense, (degree_ + 1)^D, last variable fastest
   std::vector<long double> extended_;
   bool exact_coefficients_ = true;  ///< the doubles are the scaled coefficients
-  /// For every prefix of exponents (level a: the first a of them), how far the next one may go.
-  std::array<std::vector<int>, D> room_;
   std::vector<double> magnitudes_;  ///< |coefficients_|, rounded up
   std::shared_ptr<Cache> cache_;
 };

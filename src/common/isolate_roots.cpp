@@ -89,8 +89,8 @@ std::optional<Box<D>> enclose_root(const System<D>& system, const Box<D>& around
         }
       }
       for (int k = 0; k < D; ++k) residual[k] = (residual[k] + std::fabs(correction[k])) * kUp;
-      // The smallest multiple t of the weights v that makes a Krawczyk radius (as E v < v), 16 times
-      // enlarged to leave a checker room, and no less than 16 ulps in any coordinate.
+      // The smallest multiple t of the weights v that makes a Krawczyk radius (as E v < v), 16
+      // times enlarged to leave a checker room, and no less than 16 ulps in any coordinate.
       double t = 0;
       for (int k = 0; k < D; ++k) {
         double image = 0;
