@@ -11,12 +11,12 @@ struct RationalBox {
   RationalPoint<2> hi;
 };
 
-/// Encloses crossing `id` in a box of width at most 2^-bits in both coordinates that holds it and no
-/// other common point of the pair. Undecided only if `bits` is beyond what memory allows.
+/// Encloses crossing `id` in a box of width at most 2^-bits in both coordinates that holds it and
+/// no other common point of the pair. Undecided only if `bits` is beyond what memory allows.
 Result<RationalBox> refine(const Encasement& encasement, int id, int bits);
 
-/// Compares coordinate `axis` of two crossings exactly: Negative if that of `first` is less. Equality
-/// is proved by the roots of resultants.
+/// Compares coordinate `axis` of two crossings exactly: Negative if that of `first` is less.
+/// Equality is proved by the roots of resultants.
 Result<Sign> compare_coordinate(const Encasement& encasement, int axis, int first, int second);
 
 }  // namespace encase

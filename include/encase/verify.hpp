@@ -20,8 +20,8 @@ struct VerifyOptions {
 };
 
 /// Re-proves an encasement from its stored facts and the exact input, without the search that found
-/// it: the partition, the crossings on every edge, the crossing boxes, the completeness of the lists
-/// of crossings and critical regions, the loop certificates, and the definition cell by cell.
+/// it: the partition, the crossings on every edge, the crossing boxes, the completeness of the
+/// lists of crossings and critical regions, the loop certificates, and the definition cell by cell.
 Verification verify(const Encasement& encasement, const VerifyOptions& options = {});
 
 }  // namespace encase
