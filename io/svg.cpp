@@ -222,7 +222,7 @@ class Picture {
     for (const Cell& cell : e_.cells) extents.push_back(view_.extent(bounds(cell)));
     if (!extents.empty()) {
       std::nth_element(extents.begin(), extents.begin() + extents.size() / 2, extents.end());
-      cell_stroke_ = std::clamp(0.02 * extents[extents.size() / 2], 0.2, 0.75);
+      cell_stroke_ = std::clamp(0.02 * extents[extents.size() / 2], 0.35, 0.75);
     }
     crowded_ = e_.crossings.size() > 150 || e_.cells.size() > 3000;
   }

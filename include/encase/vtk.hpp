@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "encase/encasement.hpp"
+
+/// Needs VTK: component `vtk`.
+namespace encase {
+
+/// Writes an encasement for ParaView and other readers of VTK's XML files: `result.vtm` in the
+/// directory, with the blocks `cells`, `curves`, `points`, `critical_regions` and `unresolved` in
+/// `result/*.vtp`; with `history` also `history.pvd`, the cells after each cut of the splitting
+/// history (at most 200 time steps, evenly chosen) in `history/*.vtp`. docs/vtk.md lists the
+/// arrays. Makes the directory if its parent exists. The .vtm and .pvd files appear when all they
+/// refer to is complete; those of an earlier run are removed first. Io if a file cannot be written.
+/// Deterministic.
+Status write_vtk(const Encasement& encasement, const std::string& directory, bool history = false);
+
+}  // namespace encase

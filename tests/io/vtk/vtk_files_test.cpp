@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "encase/vtk.hpp"
+#include "tests/sample_encasements.hpp"
+
+namespace encase {
+namespace {
+
+namespace fs = std::filesystem;
+
+class VtkFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::path(testing::TempDir()) / ("encase-vtk-" + std::to_string(getpid()));
+    fs::remove_all(directory_);
+    fs::create_directories(directory_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  static std::string text(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  vtkPolyData* read(const std::string& name) {
+    reader_->SetFileName(path(name).c_str());
+    reader_->Update();
+    return reader_->GetOutput();
+  }
+  static int integer(vtkFieldData* data, const char* name, int row) {
+    auto* array = vtkIntArray::SafeDownCast(data->GetAbstractArray(name));
+    if (array) return array->GetValue(row);
+    ADD_FAILURE() << name;
+    return -1000;
+  }
+  static std::string string(vtkFieldData* data, const char* name, int row) {
+    auto* array = vtkStringArray::SafeDownCast(data->GetAbstractArray(name));
+    if (array) return array->GetValue(row);
+    ADD_FAILURE() << name;
+    return "";
+  }
+
+  fs::path directory_;
+  vtkNew<vtkXMLPolyDataReader> reader_;
+};
+
+TEST_F(VtkFiles, HoldCellsWithTheirAttributes) {
+  Encasement e = sample::circle_and_line();
+  e.cells[1].state = CellState::Degenerate;
+  ASSERT_FALSE(write_vtk(e, path("out")));
+  vtkPolyData* cells = read("out/result/cells.vtp");
+  ASSERT_EQ(cells->GetNumberOfPolys(), 3);
+  EXPECT_EQ(cells->GetPoints()->GetDataType(), VTK_DOUBLE);
+  vtkFieldData* data = cells->GetCellData();
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(integer(data, "id", k), k);
+  EXPECT_EQ(integer(data, "kind", 0), 2);
+  EXPECT_EQ(integer(data, "kind", 1), 4);
+  EXPECT_EQ(integer(data, "kind", 2), 0);
+  EXPECT_EQ(integer(data, "certified", 0), 1);
+  EXPECT_EQ(integer(data, "certified", 1), 0);
+  EXPECT_EQ(integer(data, "depth", 2), 2);
+  EXPECT_EQ(integer(data, "crossing", 0), 1);
+  // Both curves run through cell 0; cell 2 is outside the circle and above the line.
+  EXPECT_EQ(integer(data, "sign_circle", 0), 0);
+  EXPECT_EQ(integer(data, "sign_circle", 2), 1);
+  EXPECT_EQ(integer(data, "sign_line", 2), 1);
+  EXPECT_EQ(string(data, "curve_name", 0), "circle, line");
+  EXPECT_EQ(string(cells->GetFieldData(), "status", 0), "certified");
+  EXPECT_EQ(string(cells->GetFieldData(), "input", 0).rfind("circle: ", 0), 0u);
+}
+
+TEST_F(VtkFiles, HoldCurvesAndCrossings) {
+  const Encasement e = sample::circle_and_line();
+  ASSERT_FALSE(write_vtk(e, path("out")));
+  vtkPolyData* curves = read("out/result/curves.vtp");
+  ASSERT_EQ(curves->GetNumberOfLines(), 2);
+  EXPECT_EQ(integer(curves->GetCellData(), "kind", 0), 1);
+  EXPECT_EQ(integer(curves->GetCellData(), "kind", 1), 0);
+  EXPECT_EQ(string(curves->GetCellData(), "curve_name", 1), "line");
+  vtkPolyData* points = read("out/result/points.vtp");
+  ASSERT_EQ(points->GetNumberOfVerts(), 2);
+  double at[3];
+  points->GetPoint(1, at);
+  EXPECT_EQ(at[0], e.crossings[1].point[0]);
+  EXPECT_EQ(at[1], e.crossings[1].point[1]);
+  EXPECT_EQ(integer(points->GetPointData(), "cell", 1), 0);
+  vtkPolyData* critical = read("out/result/critical_regions.vtp");
+  ASSERT_EQ(critical->GetNumberOfPolys(), 1);
+  EXPECT_EQ(integer(critical->GetCellData(), "kind", 0), -1);
+}
+
+TEST_F(VtkFiles, GiveEveryCurveASignArrayOfItsOwnPlainName) {
+  Encasement e = sample::circle_and_line();
+  e.curves[0].name = "a<\"é\">&";
+  e.curves[1].name = "a<\"e\"!>&";
+  e.curves[1].name = "a______&";
+  ASSERT_FALSE(write_vtk(e, path("out")));
+  vtkPolyData* cells = read("out/result/cells.vtp");
+  EXPECT_EQ(integer(cells->GetCellData(), "sign_a_______", 2), 1);
+  EXPECT_EQ(integer(cells->GetCellData(), "sign_a________1", 2), 1);
+  EXPECT_EQ(string(cells->GetCellData(), "curve_name", 0), "a<\"é\">&, a______&");
+}
+
+TEST_F(VtkFiles, ShowTheHistoryInOrder) {
+  const Encasement e = sample::circle_and_line();
+  ASSERT_FALSE(write_vtk(e, path("out"), true));
+  const std::string index = text(path("out/history.pvd"));
+  for (const char* step : {"step_000", "step_001", "step_002"})
+    EXPECT_NE(index.find(step), std::string::npos);
+  EXPECT_EQ(index.find("step_003"), std::string::npos);
+  EXPECT_EQ(read("out/history/step_000.vtp")->GetNumberOfPolys(), 1);
+  vtkPolyData* middle = read("out/history/step_001.vtp");
+  ASSERT_EQ(middle->GetNumberOfPolys(), 2);
+  EXPECT_EQ(integer(middle->GetCellData(), "id", 0), 0);
+  EXPECT_EQ(integer(middle->GetCellData(), "id", 1), -1);
+  EXPECT_EQ(read("out/history/step_002.vtp")->GetNumberOfPolys(), 3);
+}
+
+TEST_F(VtkFiles, ShowAtMostTwoHundredStepsWithTheFirstAndTheLast) {
+  // 1000 cuts by vertical lines, each cutting off a strip on the left.
+  Encasement e = sample::circle_and_line();
+  e.curves.clear();
+  e.crossings.clear();
+  e.critical_regions.clear();
+  e.line_crossings.clear();
+  e.lines.resize(4);
+  e.cells.clear();
+  e.history.clear();
+  for (int k = 0; k <= 1000; ++k) {
+    const double x = -1 + 2 * k / 1001.0, next = k == 1000 ? 1 : -1 + 2 * (k + 1) / 1001.0;
+    const int left = k == 0 ? 3 : 3 + k, right = k == 1000 ? 1 : 4 + k;
+    Cell cell;
+    cell.state = CellState::Certified;
+    cell.vertices = {sample::corner(left, 0, x, -1), sample::corner(0, right, next, -1),
+                     sample::corner(right, 2, next, 1), sample::corner(2, left, x, 1)};
+    e.cells.push_back(cell);
+    if (k == 1000) break;
+    e.lines.push_back(sample::line(1, 0, -next));
+    e.history.push_back({right, ~k, k == 999 ? ~1000 : k + 1});
+  }
+  ASSERT_FALSE(write_vtk(e, path("out"), true));
+  const fs::directory_iterator files(path("out/history"));
+  EXPECT_EQ(std::distance(files, fs::directory_iterator()), 200);
+  const std::string index = text(path("out/history.pvd"));
+  EXPECT_NE(index.find("timestep=\"0\""), std::string::npos);
+  EXPECT_NE(index.find("timestep=\"1000\""), std::string::npos);
+  EXPECT_EQ(read("out/history/step_199.vtp")->GetNumberOfPolys(), 1001);
+}
+
+TEST_F(VtkFiles, ReplaceAnEarlierRunAndItsHistory) {
+  const Encasement e = sample::circle_and_line();
+  ASSERT_FALSE(write_vtk(e, path("out"), true));
+  std::ofstream(path("out/result/other.txt")) << "mine";
+  const std::string before = text(path("out/result/cells.vtp"));
+  ASSERT_FALSE(write_vtk(e, path("out")));
+  EXPECT_EQ(text(path("out/result/cells.vtp")), before);
+  EXPECT_FALSE(fs::exists(path("out/history.pvd")));
+  EXPECT_TRUE(fs::exists(path("out/result/other.txt")));
+  for (const auto& entry : fs::directory_iterator(path("out")))
+    EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
+}
+
+TEST_F(VtkFiles, AreWrittenForAnEmptyResult) {
+  Encasement e;
+  e.region = e.region_used = sample::square();
+  ASSERT_FALSE(write_vtk(e, path("out"), true));
+  EXPECT_EQ(read("out/result/cells.vtp")->GetNumberOfCells(), 0);
+}
+
+TEST_F(VtkFiles, AreAbsentWhereTheDiskIsTooSmall) {
+  // Files of this process may not grow beyond 3000 bytes: less than cells.vtp has.
+  struct sigaction ignore = {}, old_action;
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGXFSZ, &ignore, &old_action);
+  rlimit old_limit, limit;
+  getrlimit(RLIMIT_FSIZE, &old_limit);
+  limit = old_limit;
+  limit.rlim_cur = 3000;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  testing::internal::CaptureStderr();
+  const Status status = write_vtk(sample::circle_and_line(), path("out"));
+  setrlimit(RLIMIT_FSIZE, &old_limit);
+  sigaction(SIGXFSZ, &old_action, nullptr);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->code, Error::Code::Io);
+  EXPECT_NE(status->message.find("cells.vtp"), std::string::npos) << status->message;
+  EXPECT_TRUE(fs::is_empty(directory_));
+}
+
+TEST_F(VtkFiles, AreAbsentAfterAFailure) {
+  const Encasement e = sample::circle_and_line();
+  Status status = write_vtk(e, path("no/out"));
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->code, Error::Code::Io);
+  std::ofstream(path("file")) << "x";
+  status = write_vtk(e, path("file"));
+  ASSERT_TRUE(status);
+  // A file stands where the blocks should go.
+  fs::create_directory(path("out"));
+  std::ofstream(path("out/result")) << "x";
+  testing::internal::CaptureStderr();
+  status = write_vtk(e, path("out"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  ASSERT_TRUE(status);
+  EXPECT_FALSE(fs::exists(path("out/result.vtm")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), fs::directory_iterator()), 1);
+}
+
+}  // namespace
+}  // namespace encase
