@@ -218,11 +218,12 @@ void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
     entry.box = box;
     entry.has_box = true;
     entry.curves = curves;
+    // Halved as far as sizes go, as opposed to left over when the number of boxes ran out.
     bool at_cap = true;
     for (const Box<2>& leaf : unresolved)
       if (box.contains(leaf))
-        for (int i = 0; i < 2; ++i)
-          at_cap = at_cap && leaf.width(i) <= 16 * limits.smallest * root.width(i);
+        at_cap = at_cap && (leaf.width(0) <= limits.smallest * root.width(0) ||
+                            leaf.width(1) <= limits.smallest * root.width(1));
     if (at_cap) {
       entry.kind = kind;
       entry.reason = kind == Unresolved::Kind::Contact

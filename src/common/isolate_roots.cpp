@@ -97,7 +97,8 @@ std::optional<Box<D>> enclose_root(const System<D>& system, const Box<D>& around
         for (int j = 0; j < D; ++j) image += c.bound[k][j] * c.weights[j];
         const double half = 0.5 * around.width(k);
         t = std::max(t, 16 * residual[k] / (c.weights[k] - image * kUp));
-        t = std::max(t, 16 * ulp(x[k]) / (c.weights[k] * half));
+        const double size = std::max(std::fabs(x[k]), 0x1p-20 * half);
+        t = std::max(t, 16 * ulp(size) / (c.weights[k] * half));
       }
       Box<D> box;
       std::array<double, D> radius;
