@@ -62,7 +62,7 @@ class Encaser {
   Shape shape_of(const OpenCell& cell) const;
   std::optional<Cut> next_cut(const OpenCell& cell, CellState* settled);
   bool out_of_budget();
-  std::vector<Line> sides() const;
+  void use_region(const Region& region);
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
   void report(const std::vector<Box<2>>& unresolved, const Box<2>& root, Unresolved::Kind kind,
               std::vector<int> curves);
@@ -79,6 +79,7 @@ class Encaser {
   Kernel kernel_;
   Encasement result_;
   std::vector<FilteredPolynomial<2>> polynomials_;
+  std::vector<Line> sides_;  // of region_used
   std::unique_ptr<Partition> partition_;
   OpenCell first_cell_;
   std::vector<Finished> finished_;
@@ -148,11 +149,11 @@ void Encaser::separate_components() {
   }
 }
 
-std::vector<Line> Encaser::sides() const {
-  std::vector<Line> sides;
-  for (int k = 0; k < result_.region_used.side_count(); ++k)
-    sides.push_back(result_.region_used.side(k));
-  return sides;
+void Encaser::use_region(const Region& region) {
+  result_.region_used = region;
+  sides_.clear();
+  for (int k = 0; k < region.side_count(); ++k) sides_.push_back(region.side(k));
+  partition_ = std::make_unique<Partition>(polynomials_, kernel_);
 }
 
 bool Encaser::open_region() {
@@ -161,15 +162,14 @@ bool Encaser::open_region() {
   for (int attempt = 0; attempt < 6; ++attempt) {
     auto used = attempt == 0 ? std::optional(result_.region) : enlarged(result_.region, attempt);
     if (!used) continue;
-    result_.region_used = *used;
-    partition_ = std::make_unique<Partition>(polynomials_, kernel_);
-    if (auto cell = partition_->open(sides())) {
+    use_region(*used);
+    if (auto cell = partition_->open(sides_)) {
       first_cell_ = std::move(*cell);
       isolate_crossings();
       // Every crossing box must lie on one side of every side's line.
       bool clear = true;
       for (const Crossing& crossing : partition_->crossings)
-        for (const Line& line : sides())
+        for (const Line& line : sides_)
           clear = clear && side(line, crossing.box, kernel_).has_value();
       if (clear) return true;
     }
@@ -178,9 +178,8 @@ bool Encaser::open_region() {
 }
 
 void Encaser::give_up_on_region() {
-  result_.region_used = result_.region;
-  partition_ = std::make_unique<Partition>(polynomials_, kernel_);
-  partition_->lines = sides();
+  use_region(result_.region);
+  partition_->lines = sides_;
   isolate_crossings();
   find_critical_regions();
   OpenCell cell;
@@ -248,13 +247,12 @@ void Encaser::isolate_crossings() {
                                           [](const Unresolved& u) { return u.has_box; }),
                            result_.degenerate.end());
   result_.undecided.clear();
-  const std::vector<Line> half_planes = sides();
   const Box<2> box = result_.region_used.bounding_box();
   const int n = static_cast<int>(polynomials_.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) {
-      RootIsolation<2> roots = isolate_roots<2>({&polynomials_[i], &polynomials_[j]}, box,
-                                                half_planes, SubdivisionLimits{}, kernel_);
+      RootIsolation<2> roots = isolate_roots<2>({&polynomials_[i], &polynomials_[j]}, box, sides_,
+                                                SubdivisionLimits{}, kernel_);
       result_.statistics.root_boxes += roots.boxes;
       const int first = static_cast<int>(partition_->crossings.size());
       for (const Box<2>& root : roots.roots) {
@@ -295,11 +293,10 @@ void Encaser::isolate_crossings() {
 }
 
 void Encaser::find_critical_regions() {
-  const std::vector<Line> half_planes = sides();
   const Box<2> box = result_.region_used.bounding_box();
   for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
     CriticalRegions found =
-        critical_regions(polynomials_[c], c, box, half_planes, SubdivisionLimits{}, kernel_);
+        critical_regions(polynomials_[c], c, box, sides_, SubdivisionLimits{}, kernel_);
     result_.statistics.critical_boxes += found.boxes;
     const int first = static_cast<int>(partition_->critical_regions.size());
     for (int& token : found.tokens)
@@ -433,7 +430,7 @@ void Encaser::split_cells() {
   Partition& partition = *partition_;
   for (std::size_t k = 0; k < partition.crossings.size(); ++k) {
     bool inside = true;
-    for (const Line& line : sides())
+    for (const Line& line : sides_)
       inside = inside && side(line, partition.crossings[k].box, kernel_) == Sign::Negative;
     if (inside)
       first_cell_.crossings.push_back(static_cast<int>(k));
@@ -445,7 +442,7 @@ void Encaser::split_cells() {
       first_cell_.critical_regions.push_back(static_cast<int>(k));
   for (std::size_t k = 0; k < partition.zones.size(); ++k) {
     bool outside = false;
-    for (const Line& line : sides())
+    for (const Line& line : sides_)
       outside = outside || side(line, partition.zones[k].box, kernel_) == Sign::Positive;
     if (!outside) first_cell_.zones.push_back(static_cast<int>(k));
   }
@@ -495,13 +492,16 @@ Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
   cell.state = state;
   cell.depth = open.depth;
   const int n = static_cast<int>(open.edges.size());
+  const Box<2> bounds = result_.region_used.bounding_box();
+  const double size = std::max({std::fabs(bounds.lo[0]), std::fabs(bounds.hi[0]),
+                                std::fabs(bounds.lo[1]), std::fabs(bounds.hi[1])});
   for (int k = 0; k < n; ++k) {
     const auto& edge = open.edges[k];
     const int before = open.edges[(k + n - 1) % n].line;
     Vertex vertex{before, edge.line, 0, middle(open.vertices[k])};
     // Lines that meet at a small angle are met exactly, then rounded.
     for (int i = 0; i < 2; ++i)
-      if (open.vertices[k][i].width() > 0x1p-51 * std::fabs(vertex.point[i])) {
+      if (open.vertices[k][i].width() > 0x1p-50 * size) {
         const auto at = exact_meet(partition.lines[before], partition.lines[edge.line]);
         vertex.point = {nearest_double(at[0]), nearest_double(at[1])};
         break;

@@ -15,6 +15,17 @@ bool finite(const std::array<Interval, 2>& at) {
          std::isfinite(at[1].hi);
 }
 
+/// Narrows a root's interval until it is disjoint from a vertex's enclosure; false if the curve may
+/// pass through the vertex.
+bool clear_of(const FilteredPolynomial<2>& f, const Line& line, const Interval& vertex,
+              RootInterval* root, Kernel& kernel) {
+  // Points a little off the enclosure leave the intervals open towards it.
+  const double margin = 4 * vertex.width() + 0x1p-50 * std::fabs(vertex.hi) + 0x1p-1000;
+  for (const double at : {vertex.lo - margin, vertex.hi + margin})
+    if (!narrow_on_line(f, line, at, root, kernel)) return false;
+  return root->hi < vertex.lo || root->lo > vertex.hi;
+}
+
 }  // namespace
 
 bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
@@ -59,9 +70,9 @@ std::optional<OpenCell> Partition::open(const std::vector<Line>& sides) {
       const auto found = isolate_on_line(curves_[c], side, from.lo, to.hi, 20 * kMaxNodes, kernel_);
       if (!found) return std::nullopt;
       for (RootInterval root : *found) {
-        for (int i = 0; root.lo <= from.hi || root.hi >= to.lo; ++i)
-          if (i > kMaxRefinements || !refine_on_line(curves_[c], side, &root, kernel_))
-            return std::nullopt;
+        if (!clear_of(curves_[c], side, from, &root, kernel_) ||
+            !clear_of(curves_[c], side, to, &root, kernel_) || root.hi < from.hi || root.lo > to.lo)
+          return std::nullopt;
         roots.push_back({static_cast<int>(c), root});
       }
     }
@@ -89,9 +100,7 @@ std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
   for (const int id : e.crossings) {
     LineCrossing& c = line_crossings[id];
     RootInterval root{c.lo, c.hi};
-    for (int i = 0; root.lo <= parameter.hi && parameter.lo <= root.hi; ++i)
-      if (i > kMaxRefinements || !refine_on_line(curves_[c.curve], line, &root, kernel_))
-        return std::nullopt;
+    if (!clear_of(curves_[c.curve], line, parameter, &root, kernel_)) return std::nullopt;
     c.lo = root.lo;
     c.hi = root.hi;
     if ((root.hi < parameter.lo) == ascending) ++before;
@@ -280,9 +289,9 @@ std::optional<Cut> Partition::try_line(const OpenCell& cell, const Line& line, d
     if (!found) return std::nullopt;
     for (RootInterval root : *found) {
       // The new vertices must be free of the curve: no root in their enclosures.
-      for (int i = 0; root.lo <= from.hi || root.hi >= to.lo; ++i)
-        if (i > kMaxRefinements || !refine_on_line(curves_[c], line, &root, kernel_))
-          return std::nullopt;
+      if (!clear_of(curves_[c], line, from, &root, kernel_) ||
+          !clear_of(curves_[c], line, to, &root, kernel_) || root.hi < from.hi || root.lo > to.lo)
+        return std::nullopt;
       cut.roots.push_back({c, root});
       ++cut.counts[0][c];
       ++cut.counts[1][c];

@@ -253,6 +253,14 @@ void horner_step(Number* r, const Number& x, const Number* c, int count) {
 /// Sums out one variable of a dense array of n blocks; of block k only the first `used(k)` entries.
 template <class Number, class Used>
 void sum_out(Number* result, const Number* blocks, int n, int size, const Number& x, Used used) {
+  if constexpr (std::is_floating_point_v<Number>) {
+    if (size == 1) {
+      Number sum = blocks[n - 1];
+      for (int k = n - 2; k >= 0; --k) sum = sum * x + blocks[k];
+      *result = sum;
+      return;
+    }
+  }
   std::copy_n(blocks + static_cast<std::size_t>(n - 1) * size, size, result);
   for (int k = n - 2; k >= 0; --k)
     horner_step(result, x, blocks + static_cast<std::size_t>(k) * size, used(k));
@@ -520,6 +528,13 @@ typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::evaluate(const Poin
 }
 
 template <int D>
+typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::evaluate_rounded(
+    const Point<D>& point, const Point<D>& magnitude, int roundings) const {
+  return with_error(approximate(point), magnitude,
+                    kCoefficientRoundings + (2 + roundings) * degree_ + D, Kernel::kDoubleBits);
+}
+
+template <int D>
 double FilteredPolynomial<D>::approximate(const Point<D>& point) const {
   return sum<double>(coefficients_, point, Kernel::kDoubleBits);
 }
@@ -542,9 +557,16 @@ Point<D> FilteredPolynomial<D>::gradient(const Point<D>& point) const {
     double *value = next[0].data(), *slope = next[axis + 1].data();
     std::copy_n(from + static_cast<std::size_t>(n - 1) * size, size, value);
     std::fill_n(slope, size, 0.0);
-    for (int k = n - 2; k >= 0; --k) {
-      horner_step(slope, x, value, used(k));
-      horner_step(value, x, from + static_cast<std::size_t>(k) * size, used(k));
+    if (size == 1) {
+      for (int k = n - 2; k >= 0; --k) {
+        *slope = *slope * x + *value;
+        *value = *value * x + from[k];
+      }
+    } else {
+      for (int k = n - 2; k >= 0; --k) {
+        horner_step(slope, x, value, used(k));
+        horner_step(value, x, from + static_cast<std::size_t>(k) * size, used(k));
+      }
     }
     jets.swap(next);
     from = jets[0].data();

@@ -67,6 +67,10 @@ class FilteredPolynomial {
     double error;
   };
   Value evaluate(const Point<D>& point, int bits) const;
+  /// In doubles at a point of which `point` is an approximation: every coordinate comes from at
+  /// most `roundings` roundings of sums of terms whose absolute values add up to at most
+  /// `magnitude`.
+  Value evaluate_rounded(const Point<D>& point, const Point<D>& magnitude, int roundings) const;
 
   /// Approximate (scaled) value and gradient, for heuristics and Newton steps.
   double approximate(const Point<D>& point) const;

@@ -177,11 +177,8 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomia
   // Drop what the enlargement brought in; a root that cannot be told from an end is a failure.
   std::vector<RootInterval> inside;
   for (RootInterval root : roots) {
-    const auto straddles = [&] {
-      return (root.lo < lo && lo < root.hi) || (root.lo < hi && hi < root.hi);
-    };
-    for (int tries = 0; straddles(); ++tries)
-      if (tries > 80 || !refine_on_line(f, line, &root, kernel)) return std::nullopt;
+    for (const double end : {lo, hi})
+      if (!narrow_on_line(f, line, end, &root, kernel)) return std::nullopt;
     if (root.lo >= lo && root.hi <= hi) inside.push_back(root);
   }
   return inside;
@@ -199,13 +196,20 @@ typename FilteredPolynomial<2>::Value value_on_line(const FilteredPolynomial<2>&
   reach[p] = std::fabs(parameter);
   reach[q] = (std::fabs(line.normal[p]) * reach[p] + std::fabs(line.offset)) /
              std::fabs(line.normal[q]) * (1 + 0x1p-40);
-  auto v = f.evaluate(at, Kernel::kDoubleBits);
   // The other coordinate carries up to nine roundings, relative to reach[q] (as in SegmentChart).
-  v.error = (v.error + (2 + 11.0 * f.degree() + 2) * 0x1.1p-53 * f.absolute(reach)) * (1 + 0x1p-40);
-  return v;
+  return f.evaluate_rounded(at, reach, 9);
 }
 
 }  // namespace
+
+bool narrow_on_line(const FilteredPolynomial<2>& f, const Line& line, double at, RootInterval* root,
+                    Kernel& kernel) {
+  if (!(root->lo < at && at < root->hi)) return true;
+  const Sign here = sign_on_line(f, line, at, kernel);
+  if (here == Sign::Zero) return false;
+  (here == sign_on_line(f, line, root->lo, kernel) ? root->lo : root->hi) = at;
+  return true;
+}
 
 Sign sign_on_line(const FilteredPolynomial<2>& f, const Line& line, double parameter,
                   Kernel& kernel) {

@@ -43,6 +43,11 @@ bool no_root_on_segment(const FilteredPolynomial<2>& f, const Point<2>& from, co
 bool refine_on_line(const FilteredPolynomial<2>& f, const Line& line, RootInterval* root,
                     Kernel& kernel);
 
+/// Cuts a root's interval at a parameter, so that the root is proved to lie before or beyond it;
+/// false if f is zero there.
+bool narrow_on_line(const FilteredPolynomial<2>& f, const Line& line, double at, RootInterval* root,
+                    Kernel& kernel);
+
 /// The exact sign of f at the point of the line with the given parameter.
 Sign sign_on_line(const FilteredPolynomial<2>& f, const Line& line, double parameter,
                   Kernel& kernel);
