@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: MIT
+"""Shows an encasement in ParaView in sensible colours.
+
+    encase curves examples/clover.curves -o out
+    pvpython examples/paraview/open_encasement.py out picture.png
+
+In ParaView itself (View > Python Shell) the pipeline stays open to play with:
+
+    import sys; sys.argv = ["", "out"]
+    exec(open("examples/paraview/open_encasement.py").read())
+"""
+import os
+import sys
+
+from paraview import servermanager
+from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetColorTransferFunction, GetScalarBar,
+                             Render, ResetCamera, SaveScreenshot, Show, XMLPolyDataReader)
+
+# Okabe and Ito's colours, which people with any colour vision can tell apart.
+CURVE_COLOURS = [(0.00, 0.45, 0.70), (0.84, 0.37, 0.00), (0.00, 0.62, 0.45), (0.80, 0.47, 0.65),
+                 (0.34, 0.71, 0.91), (0.90, 0.62, 0.00)]
+CELL_KINDS = ["empty", "one curve", "crossing", "relaxed", "degenerate", "undecided"]
+CELL_COLOURS = [(1.00, 1.00, 1.00), (0.91, 0.95, 0.98), (1.00, 0.97, 0.86), (0.92, 0.93, 0.95),
+                (0.98, 0.85, 0.84), (0.93, 0.88, 0.97)]
+
+
+def open_block(directory, name):
+    """A block of the result, or None if nothing is in it."""
+    path = os.path.join(directory, "result", name + ".vtp")
+    reader = XMLPolyDataReader(registrationName=name, FileName=[path])
+    reader.UpdatePipeline()
+    return reader if reader.GetDataInformation().GetNumberOfCells() > 0 else None
+
+
+def colour_by(display, array, names, colours):
+    """Colours cells by an integer array whose values 0, 1, 2, ... have names."""
+    ColorBy(display, ("CELLS", array), separate=True)
+    table = GetColorTransferFunction(array, display, separate=True)
+    table.InterpretValuesAsCategories = 1
+    table.Annotations = [text for k, name in enumerate(names) for text in (str(k), name)]
+    table.IndexedColors = [c for k in range(len(names)) for c in colours[k % len(colours)]]
+    display.LookupTable = table
+    table.IndexedOpacities = [1.0] * len(names)
+
+
+def show(directory):
+    view = GetActiveViewOrCreate("RenderView")
+    view.InteractionMode = "2D"
+    view.UseColorPaletteForBackground = 0
+    view.BackgroundColorMode = "Single Color"
+    view.Background = [1.0, 1.0, 1.0]
+    view.OrientationAxesVisibility = 0
+    blocks = {name: open_block(directory, name)
+              for name in ["cells", "critical_regions", "curves", "unresolved", "points"]}
+
+    cells = blocks["cells"]
+    bounds = cells.GetDataInformation().GetBounds()
+    # Everything lies in the plane z = 0; seen from above, a little height keeps layers in order.
+    layer = 1e-2 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    curve_names = {}
+    if blocks["curves"]:
+        attributes = servermanager.Fetch(blocks["curves"]).GetCellData()
+        curves, names = (attributes.GetAbstractArray(a) for a in ["curve", "curve_name"])
+        for k in range(curves.GetNumberOfTuples()):
+            curve_names[curves.GetValue(k)] = names.GetValue(k)
+    names = [curve_names.get(k, str(k)) for k in range(max(curve_names, default=-1) + 1)]
+
+    display = Show(cells, view)
+    display.SetRepresentationType("Surface With Edges")
+    display.EdgeColor = [0.6, 0.62, 0.65]
+    display.Ambient, display.Diffuse = 1.0, 0.0
+    colour_by(display, "kind", CELL_KINDS, CELL_COLOURS)
+
+    if blocks["critical_regions"]:
+        display = Show(blocks["critical_regions"], view)
+        display.Position = [0.0, 0.0, layer]
+        display.Opacity = 0.3
+        display.Ambient, display.Diffuse = 1.0, 0.0
+        colour_by(display, "curve", names, CURVE_COLOURS)
+    if blocks["curves"]:
+        display = Show(blocks["curves"], view)
+        display.Position = [0.0, 0.0, 2 * layer]
+        display.LineWidth = 3.0
+        colour_by(display, "curve", names, CURVE_COLOURS)
+        display.SetScalarBarVisibility(view, True)
+        bar = GetScalarBar(display.LookupTable, view)
+        bar.Title, bar.ComponentTitle = "curve", ""
+        bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
+        bar.WindowLocation = "Upper Right Corner"
+        bar.ScalarBarLength = 0.1
+        bar.ScalarBarThickness = 10
+        bar.TitleFontSize = bar.LabelFontSize = 12
+    if blocks["unresolved"]:
+        display = Show(blocks["unresolved"], view)
+        display.Position = [0.0, 0.0, 3 * layer]
+        display.SetRepresentationType("Wireframe")
+        display.LineWidth = 4.0
+        display.ColorArrayName = [None, ""]
+        display.AmbientColor = display.DiffuseColor = [0.76, 0.07, 0.12]
+    if blocks["points"]:
+        display = Show(blocks["points"], view)
+        display.Position = [0.0, 0.0, 4 * layer]
+        display.SetRepresentationType("Points")
+        display.PointSize = 9.0
+        display.ColorArrayName = [None, ""]
+        display.AmbientColor = display.DiffuseColor = [0.1, 0.1, 0.1]
+
+    ResetCamera(view)
+    view.CameraParallelProjection = 1
+    view.CameraParallelScale = 0.56 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    Render(view)
+    return view
+
+
+if len(sys.argv) < 2:
+    sys.exit("usage: pvpython open_encasement.py DIRECTORY [PICTURE.png]")
+encasement_view = show(sys.argv[1])
+if len(sys.argv) > 2:
+    encasement_view.ViewSize = [1000, 1000]
+    SaveScreenshot(sys.argv[2], encasement_view, ImageResolution=[1000, 1000])
