@@ -347,7 +347,7 @@ class Files(CommandTest):
 
     def test_budget_leaves_an_undecided_result(self):
         path = self.path("a.json")
-        run = encase("curves", self.curves(), "--max-cells", "2", "--json", path)
+        run = encase("curves", self.curves(), "--max-cells", "1", "--json", path)
         self.encased(run, 4)
         self.assertIn("undecided", run.stdout)
         with open(path) as file:
