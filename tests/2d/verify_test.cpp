@@ -351,6 +351,10 @@ TEST(Verify, ObjectsToListsThatAreNotWellFormed) {
       e, [](auto& m) { m.crossings[0].location = static_cast<Location>(3); }, "valid location");
   expect_objection(
       e, [](auto& m) { m.critical_regions[0].sign = Sign::Zero; }, "has no sign");
+  expect_objection(
+      e, [](auto& m) { m.region_used.corners.resize(7); }, "fewer lines than sides");
+  expect_objection(
+      e, [](auto& m) { m.crossings[0].point[0] = std::nan(""); }, "has a bad box or point");
   const Encasement n = node();
   expect_objection(
       n, [](auto& m) { m.degenerate[0].curves = {1}; }, "ascending indices of curves");
