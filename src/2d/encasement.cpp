@@ -194,8 +194,17 @@ void Encaser::give_up_on_region() {
 }
 
 std::vector<Box<2>> Encaser::clusters_of(const std::vector<Box<2>>& unresolved) const {
+  // Boxes that nearly touch are one place.
+  std::vector<Box<2>> grown = unresolved;
+  for (Box<2>& box : grown) {
+    const double margin = 4 * box.largest_width();
+    for (int i = 0; i < 2; ++i) {
+      box.lo[i] -= margin;
+      box.hi[i] += margin;
+    }
+  }
   std::vector<Box<2>> clusters;
-  const std::vector<int> component = connected_components(unresolved);
+  const std::vector<int> component = connected_components(grown);
   for (std::size_t i = 0; i < unresolved.size(); ++i) {
     const std::size_t k = component[i];
     if (k == clusters.size())

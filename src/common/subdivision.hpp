@@ -129,10 +129,14 @@ Subdivision<D> subdivide(const std::array<const FilteredPolynomial<D>*, N>& poly
     }
     return false;
   };
+  // Small boxes are where curves touch or nearly touch, and only the last digits tell them apart.
   const auto sharpen = [&](Item& item) {
+    bool small = false;
+    for (int i = 0; i < D; ++i) small = small || item.box.width(i) < 0x1p-16 * root.width(i);
+    const double tolerated = small ? 0x1p-40 : 0x1p-10;
     for (int i = 0; i < N; ++i) {
       Bernstein<D>& net = item.nets[i];
-      const auto coarse = [&] { return !(net.radius < 0x1p-10 * largest_coefficient(net)); };
+      const auto coarse = [&] { return !(net.radius < tolerated * largest_coefficient(net)); };
       if (!coarse()) continue;
       for (int bits = item.bits[i]; bits > 0 && coarse(); bits = kernel.next(bits)) {
         const double before = net.radius;
