@@ -62,6 +62,9 @@ class Encaser {
   Shape shape_of(const OpenCell& cell) const;
   std::optional<Cut> next_cut(const OpenCell& cell, CellState* settled);
   bool out_of_budget();
+  /// Tells the caller's progress callback; a refusal uses the budget up.
+  void progress(const char* stage, double done);
+  SubdivisionLimits limits(const char* stage);
   void use_region(const Region& region);
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
   void report(const std::vector<Box<2>>& unresolved, const Box<2>& root, Unresolved::Kind kind,
@@ -304,8 +307,8 @@ void Encaser::isolate_crossings() {
 void Encaser::find_critical_regions() {
   const Box<2> box = result_.region_used.bounding_box();
   for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
-    CriticalRegions found =
-        critical_regions(polynomials_[c], c, box, sides_, SubdivisionLimits{}, kernel_);
+    CriticalRegions found = critical_regions(polynomials_[c], c, box, sides_,
+                                             limits("finding critical regions"), kernel_);
     result_.statistics.critical_boxes += found.boxes;
     const int first = static_cast<int>(partition_->critical_regions.size());
     for (int& token : found.tokens)
@@ -366,6 +369,20 @@ Encaser::Shape Encaser::shape_of(const OpenCell& cell) const {
   if (cell.crossings.size() == 1 && alternates) return Shape::Simple;
   if (cell.crossings.empty() && !alternates) return Shape::Relaxable;
   return Shape::Complex;
+}
+
+void Encaser::progress(const char* stage, double done) {
+  if (options_.progress && budget_.empty() && !options_.progress(stage, done))
+    budget_ = "the computation was cancelled";
+}
+
+SubdivisionLimits Encaser::limits(const char* stage) {
+  SubdivisionLimits limits;
+  limits.stop = [this, stage] {
+    progress(stage, -1);
+    return out_of_budget();
+  };
+  return limits;
 }
 
 bool Encaser::out_of_budget() {
@@ -462,11 +479,10 @@ void Encaser::split_cells() {
   while (!stack.empty()) {
     OpenCell cell = std::move(stack.back());
     stack.pop_back();
-    if (options_.progress && ++until_progress % 64 == 0) {
-      const double done = static_cast<double>(finished_.size()) /
-                          (static_cast<double>(finished_.size() + stack.size()) + features);
-      if (!options_.progress("splitting cells", done)) budget_ = "the computation was cancelled";
-    }
+    if (++until_progress % 64 == 0)
+      progress("splitting cells",
+               static_cast<double>(finished_.size()) /
+                   (static_cast<double>(finished_.size() + stack.size()) + features));
     CellState settled = CellState::Undecided;
     std::optional<Cut> cut;
     certificates_.clear();

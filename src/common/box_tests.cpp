@@ -111,7 +111,7 @@ bool climb(Kernel& kernel, Expand expand, Proves proves, Hopeful hopeful) {
 /// Whether the radius is a noticeable part of the net, so that a sharper net may prove more.
 template <int D>
 bool coarse(const Bernstein<D>& net) {
-  return !(net.radius < 0x1p-30 * largest_coefficient(net));
+  return !(net.radius < 0x1p-46 * largest_coefficient(net));
 }
 
 template <int D>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -88,6 +89,8 @@ Box<D> subdivision_root(const Box<D>& box) {
 
 struct SubdivisionLimits {
   int max_boxes = 200000;
+  /// Asked now and then; true ends the subdivision, and what is open stays unresolved.
+  std::function<bool()> stop;
   double smallest = 0x1p-40;  ///< boxes are halved down to this part of the root's widths
 };
 
@@ -156,11 +159,14 @@ Subdivision<D> subdivide(const std::array<const FilteredPolynomial<D>*, N>& poly
   for (int i = 0; i < N; ++i)
     polynomials[i]->expand(root, degree, kernel.start_bits, kernel, &level[0].nets[i]);
   int boxes = 0;
+  bool stopped = false;
   while (!level.empty()) {
     for (Item& item : level) {
       int token = cover::kOutside;
-      ++boxes;
-      if (!outside(item.box)) {
+      if (++boxes % 64 == 0 && !stopped) stopped = limits.stop && limits.stop();
+      if (stopped) {
+        token = cover::kUnresolved;
+      } else if (!outside(item.box)) {
         sharpen(item);
         token = visit(item.nets, item.box);
       }
