@@ -22,6 +22,8 @@ constexpr std::array<const char*, 6> kColours = {"#0072b2", "#d55e00", "#009e73"
 constexpr std::array<const char*, 4> kDashes = {"", "7 3", "2 3", "9 3 2 3"};
 constexpr const char* kDegenerate = "#c1121f";
 constexpr const char* kUndecided = "#7b2cbf";
+constexpr double kRing = 7;         ///< radius of a ring around what is small
+constexpr double kVisible = 8;      ///< an extent that needs no ring
 constexpr double kTolerance = 0.1;  ///< pixels between a curve and what is drawn
 constexpr double kFont = 12;
 constexpr double kLetter = 6.7;  ///< about how wide a letter of that size is
@@ -354,38 +356,54 @@ class Picture {
                               : "fill=\"#fff\" stroke=\"#1a1a1a\" stroke-width=\"1.1\"");
   }
 
+  /// Crossings are known a little beyond the region used, too.
+  static bool is_drawn(const Crossing& crossing) {
+    return crossing.location != Location::Outside || crossing.cell >= 0;
+  }
+
   void draw_crossings() {
     if (e_.crossings.empty()) return;
     add("<g id=\"crossings\">\n");
     for (const Crossing& crossing : e_.crossings)
-      add("{}\n", dot(view_.x(crossing.point[0]), view_.y(crossing.point[1]),
-                      crossing.location != Location::Outside));
+      if (is_drawn(crossing))
+        add("{}\n", dot(view_.x(crossing.point[0]), view_.y(crossing.point[1]),
+                        crossing.location != Location::Outside));
     add("</g>\n");
   }
 
-  void draw_places(const std::vector<Unresolved>& places, const char* paint) {
+  /// A ring around what may be too small to see, unless one is there already.
+  void draw_ring(const Box<2>& box, const char* paint, const std::string& title) {
+    const Point<2> c = view_.center(box);
+    for (const auto& [at, its_paint] : rings_)
+      if (its_paint == paint && std::hypot(at[0] - c[0], at[1] - c[1]) < kRing) return;
+    rings_.emplace_back(c, paint);
+    add("<circle fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" cx=\"{}\" cy=\"{}\" r=\"{}\">"
+        "<title>{}</title></circle>\n",
+        paint, pixels(c[0]), pixels(c[1]), pixels(kRing), escaped(title));
+  }
+
+  void draw_places(const std::vector<Unresolved>& places, CellState state, const char* paint) {
     for (const Unresolved& place : places) {
       if (!place.has_box) continue;
-      const std::string title = escaped(place.reason);
-      if (view_.extent(place.box) >= 8) {
-        add("<path fill=\"{0}\" fill-opacity=\"0.12\" stroke=\"{0}\" stroke-width=\"1.2\" "
-            "stroke-dasharray=\"4 2\" clip-path=\"url(#encase-region)\" "
-            "d=\"{1}\"><title>{2}</title></path>\n",
-            paint, view_.rectangle(place.box), title);
+      if (view_.extent(place.box) < kVisible) {
+        draw_ring(place.box, paint, place.reason);
         continue;
       }
-      const Point<2> c = view_.center(place.box);
-      add("<circle fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" cx=\"{}\" cy=\"{}\" r=\"7\">"
-          "<title>{}</title></circle>\n",
-          paint, pixels(c[0]), pixels(c[1]), title);
+      add("<path fill=\"{0}\" fill-opacity=\"0.12\" stroke=\"{0}\" stroke-width=\"1.2\" "
+          "stroke-dasharray=\"4 2\" clip-path=\"url(#encase-region)\" "
+          "d=\"{1}\"><title>{2}</title></path>\n",
+          paint, view_.rectangle(place.box), escaped(place.reason));
     }
+    for (const Cell& cell : e_.cells)
+      if (cell.state == state && view_.extent(bounds(cell)) < kVisible)
+        draw_ring(bounds(cell), paint,
+                  state == CellState::Degenerate ? "degenerate cell" : "undecided cell");
   }
 
   void draw_unresolved() {
-    if (e_.degenerate.empty() && e_.undecided.empty()) return;
     add("<g id=\"unresolved\">\n");
-    draw_places(e_.undecided, kUndecided);
-    draw_places(e_.degenerate, kDegenerate);
+    draw_places(e_.undecided, CellState::Undecided, kUndecided);
+    draw_places(e_.degenerate, CellState::Degenerate, kDegenerate);
     add("</g>\n");
   }
 
@@ -429,7 +447,7 @@ class Picture {
     if (curves > kMost) entries.push_back({"", fmt::format("and {} more", curves - kMost)});
     const auto any_location = [&](bool outside) {
       return std::any_of(e_.crossings.begin(), e_.crossings.end(), [&](const Crossing& c) {
-        return (c.location == Location::Outside) == outside;
+        return is_drawn(c) && (c.location == Location::Outside) == outside;
       });
     };
     const auto any_state = [&](CellState state) {
@@ -508,6 +526,7 @@ class Picture {
   bool crowded_ = false;
   bool hatched_ = false;
   std::string region_;  ///< path of the region
+  std::vector<std::pair<Point<2>, const char*>> rings_;
   Ticks x_ticks_, y_ticks_;
   std::vector<std::vector<Entry>> legend_rows_;
   std::string out_;

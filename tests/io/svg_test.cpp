@@ -106,6 +106,24 @@ TEST(Svg, RingsAPlaceTooSmallToSee) {
   EXPECT_GE(found[2].r, 5);
 }
 
+TEST(Svg, RingsTinyCellsThatAreNotCertifiedOnceAPlace) {
+  Encasement e = sample::circle_and_line();
+  Cell tiny = e.cells[2];
+  tiny.state = CellState::Undecided;
+  for (Vertex& vertex : tiny.vertices)
+    for (int axis = 0; axis < 2; ++axis) vertex.point[axis] = 0.5 + 1e-3 * vertex.point[axis];
+  e.cells.insert(e.cells.end(), 5, tiny);
+  EXPECT_EQ(dots(to_svg(e, bare())).size(), 3u);
+}
+
+TEST(Svg, LeavesOutCrossingsBeyondTheRegionUsed) {
+  Encasement e = sample::circle_and_line();
+  e.crossings[0].location = Location::Outside;
+  EXPECT_EQ(dots(to_svg(e, bare())).size(), 2u);
+  e.crossings[0].cell = -1;
+  EXPECT_EQ(dots(to_svg(e, bare())).size(), 1u);
+}
+
 TEST(Svg, NamesInTheLegendWhatIsDrawnAndNothingElse) {
   Encasement e = sample::circle_and_line();
   std::string svg = to_svg(e);
