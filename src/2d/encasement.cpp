@@ -243,11 +243,10 @@ void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
       result_.degenerate.push_back(std::move(entry));
     } else {
       entry.kind = Unresolved::Kind::Budget;
-      entry.reason =
-          (kind == Unresolved::Kind::Contact
-               ? "the limit on boxes was reached before curves " + names + " were told apart"
-               : "the limit on boxes was reached before critical points of curve " + names +
-                     " were settled");
+      entry.reason = (budget_.empty() ? "the limit on boxes was reached" : budget_) +
+                     (kind == Unresolved::Kind::Contact
+                          ? " before curves " + names + " were told apart"
+                          : " before the critical points of curve " + names + " were settled");
       result_.undecided.push_back(std::move(entry));
     }
   }
@@ -264,7 +263,7 @@ void Encaser::isolate_crossings() {
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) {
       RootIsolation<2> roots = isolate_roots<2>({&polynomials_[i], &polynomials_[j]}, box, sides_,
-                                                SubdivisionLimits{}, kernel_);
+                                                limits("isolating crossings"), kernel_);
       result_.statistics.root_boxes += roots.boxes;
       const int first = static_cast<int>(partition_->crossings.size());
       for (const Box<2>& root : roots.roots) {
