@@ -333,6 +333,23 @@ class Picture {
     return text;
   }
 
+  /// Where a cell is not certified: dots where the curve seems to be.
+  void draw_sketch(int curve) {
+    std::string path;
+    for (int k = 0; k < static_cast<int>(e_.cells.size()); ++k) {
+      const Cell& cell = e_.cells[k];
+      if (cell.state != CellState::Degenerate && cell.state != CellState::Undecided) continue;
+      if (view_.extent(bounds(cell)) < kVisible) continue;
+      for (const auto& segment :
+           sketch_curve(e_, k, curve, 3 / std::max(view_.scale_x, view_.scale_y)))
+        path += view_.path(segment, false);
+    }
+    if (!path.empty())
+      add("<path fill=\"none\" stroke=\"{}\" stroke-opacity=\"0.45\" stroke-width=\"1.2\" "
+          "d=\"{}\"/>\n",
+          colour(curve), path);
+  }
+
   void draw_curves() {
     const double tolerance = kTolerance / std::max(view_.scale_x, view_.scale_y);
     add("<g id=\"curves\">\n");
@@ -342,6 +359,7 @@ class Picture {
         const bool closed = chain.size() > 2 && chain.front() == chain.back();
         path += view_.path(chain, closed);
       }
+      draw_sketch(curve);
       if (path.empty()) continue;
       add("<path {} d=\"{}\"><title>{}</title></path>\n", stroke(curve), path,
           escaped(e_.curves[curve].name));

@@ -273,4 +273,53 @@ std::vector<Polyline> trace_curve(const Encasement& encasement, int curve, doubl
   return chains.join();
 }
 
+std::vector<Polyline> sketch_curve(const Encasement& encasement, int cell, int curve,
+                                   double spacing) {
+  constexpr int kMostSteps = 200;
+  Polyline polygon;
+  for (const Vertex& vertex : encasement.cells[cell].vertices) polygon.push_back(vertex.point);
+  if (polygon.empty()) return {};
+  Box<2> box{polygon.front(), polygon.front()};
+  for (const Point<2>& p : polygon) box = hull(box, {p, p});
+  std::array<int, 2> steps;
+  for (int axis = 0; axis < 2; ++axis)
+    steps[axis] = static_cast<int>(std::clamp(box.width(axis) / spacing, 4.0, 1.0 * kMostSteps));
+  const auto at = [&](double i, double j) {
+    return Point<2>{box.lo[0] + i / steps[0] * box.width(0),
+                    box.lo[1] + j / steps[1] * box.width(1)};
+  };
+  const auto inside = [&](const Point<2>& p) {
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Point<2>&a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+      if ((b[0] - a[0]) * (p[1] - a[1]) < (b[1] - a[1]) * (p[0] - a[0])) return false;
+    }
+    return true;
+  };
+  const FilteredPolynomial<2> f(encasement.curves[curve].polynomial);
+  std::vector<double> values;
+  for (int j = 0; j <= steps[1]; ++j)
+    for (int i = 0; i <= steps[0]; ++i) values.push_back(f.approximate(at(i, j)));
+  const auto value = [&](int i, int j) { return values[j * (steps[0] + 1) + i]; };
+
+  // In each triangle of the grid the linear interpolant's zero set is one segment or none.
+  std::vector<Polyline> segments;
+  const auto add = [&](const std::array<std::array<int, 2>, 3>& corners) {
+    Polyline ends;
+    for (int k = 0; k < 3; ++k) {
+      const auto &p = corners[k], &q = corners[(k + 1) % 3];
+      const double vp = value(p[0], p[1]), vq = value(q[0], q[1]);
+      if ((vp < 0) == (vq < 0)) continue;
+      const double t = vp / (vp - vq);
+      ends.push_back(at(p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])));
+    }
+    if (ends.size() == 2 && inside(ends[0]) && inside(ends[1])) segments.push_back(ends);
+  };
+  for (int j = 0; j < steps[1]; ++j)
+    for (int i = 0; i < steps[0]; ++i) {
+      add({{{i, j}, {i + 1, j}, {i + 1, j + 1}}});
+      add({{{i, j}, {i + 1, j + 1}, {i, j + 1}}});
+    }
+  return segments;
+}
+
 }  // namespace encase

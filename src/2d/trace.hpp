@@ -26,4 +26,10 @@ Polyline trace_branch(const Encasement& encasement, int cell, const Branch& bran
 /// last point is their first. What runs through cells without certified branches is missing.
 std::vector<Polyline> trace_curve(const Encasement& encasement, int curve, double tolerance);
 
+/// Short segments near a curve in a cell of any state, from the signs of the curve's polynomial on
+/// a grid of about the given spacing (at most 200 by 200 points): a sketch that may miss what is
+/// finer.
+std::vector<Polyline> sketch_curve(const Encasement& encasement, int cell, int curve,
+                                   double spacing);
+
 }  // namespace encase

@@ -140,5 +140,22 @@ TEST(TraceCurve, LeavesOutCellsWithoutBranches) {
   EXPECT_NE(chains[0].front(), chains[0].back());
 }
 
+TEST(SketchCurve, StaysInTheCellAndNearTheCurve) {
+  const Encasement e = sample::circle_and_line();
+  const auto segments = sketch_curve(e, 0, 0, 0.02);
+  EXPECT_GT(segments.size(), 100u);
+  double length = 0;
+  for (const Polyline& segment : segments) {
+    length += distance(segment[0], segment[1]);
+    for (const Point<2>& p : segment) {
+      EXPECT_LE(p[0], 0.0625 + 1e-12);
+      EXPECT_NEAR(std::hypot(p[0], p[1]), std::sqrt(0.5), 1e-3);
+    }
+  }
+  const double angle = 3.14159265 + 2 * std::asin(0.0625 / std::sqrt(0.5));
+  EXPECT_NEAR(length, angle * std::sqrt(0.5), 0.06);
+  EXPECT_TRUE(sketch_curve(e, 2, 0, 0.02).empty());
+}
+
 }  // namespace
 }  // namespace encase
