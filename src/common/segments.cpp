@@ -86,16 +86,17 @@ bool sharpen(const FilteredPolynomial<2>& f, const Line& line, Piece* piece, Ker
   return false;
 }
 
-/// [lo, hi] enlarged to lo' + k 2^e so that many halvings stay exact in doubles.
-void snap_outward(double* lo, double* hi) {
+/// [lo, hi] enlarged to multiples of a power of two, so that many halvings stay exact in doubles;
+/// returns that power, or 0 where the ends are left as they are.
+double snap_outward(double* lo, double* hi) {
   int e;
   std::frexp(*hi - *lo, &e);
   const double unit = std::ldexp(1.0, e - 7);
   const double low = std::floor(*lo / unit), high = std::ceil(*hi / unit);
-  if (std::fabs(low) < 0x1p45 && std::fabs(high) < 0x1p45) {
-    *lo = low * unit;
-    *hi = high * unit;
-  }
+  if (!(std::fabs(low) < 0x1p45 && std::fabs(high) < 0x1p45)) return 0;
+  *lo = low * unit;
+  *hi = high * unit;
+  return unit;
 }
 
 bool exact_middle(double lo, double hi, double* middle) {
@@ -111,15 +112,28 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomia
                                                          int max_nodes, Kernel& kernel) {
   if (!(lo < hi) || !std::isfinite(lo) || !std::isfinite(hi)) return std::nullopt;
   double low = lo, high = hi;
-  snap_outward(&low, &high);
+  const double unit = snap_outward(&low, &high);
   std::vector<RootInterval> roots;
   std::vector<Piece> stack(1);
-  stack[0].lo = low;
-  stack[0].hi = high;
   stack[0].bits = kernel.start_bits;
-  double middle_of_all;
-  if (!exact_middle(low, high, &middle_of_all)) return std::nullopt;
-  f.restrict_to(SegmentChart::of_line(line, low, high), kernel.start_bits, kernel, &stack[0].net);
+  const Bernstein<1>& net = stack[0].net;
+  for (int tries = 0;; ++tries) {
+    double middle_of_all;
+    if (!exact_middle(low, high, &middle_of_all)) return std::nullopt;
+    stack[0].lo = low;
+    stack[0].hi = high;
+    f.restrict_to(SegmentChart::of_line(line, low, high), kernel.start_bits, kernel, &stack[0].net);
+    // A zero at an end that only the enlargement brought in: enlarge further.
+    const auto zero_end = [&](double value, double end, double asked) {
+      return end != asked && !(std::fabs(value) > net.radius) &&
+             sign_on_line(f, line, end, kernel) == Sign::Zero;
+    };
+    const bool at_low = zero_end(net.b.front(), low, lo),
+               at_high = zero_end(net.b.back(), high, hi);
+    if (tries == 3 || !(at_low || at_high)) break;
+    if (at_low) low -= unit;
+    if (at_high) high += unit;
+  }
   int nodes = 0;
   while (!stack.empty()) {
     if (++nodes > max_nodes) return std::nullopt;
