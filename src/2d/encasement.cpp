@@ -608,6 +608,7 @@ void Encaser::decide_outcome() {
   for (const Cell& cell : result_.cells)
     if (cell.state == CellState::Undecided) result_.outcome = Outcome::Undecided;
   Statistics& s = result_.statistics;
+  s.candidate_lines = partition_->lines_tried;
   s.decisions = kernel_.decisions;
   s.restrictions = kernel_.restrictions;
   s.expansions = kernel_.expansions;

@@ -205,6 +205,7 @@ bool Partition::inside(const CriticalRegion& region, const OpenCell& cell) {
 }
 
 std::optional<Cut> Partition::try_line(const OpenCell& cell, const Line& line, double enough) {
+  ++lines_tried;
   const double size = std::fabs(line.normal[0]) + std::fabs(line.normal[1]);
   if (!(size > 1e-100 && size < 1e100) || !std::isfinite(line.offset)) return std::nullopt;
   Cut cut;

@@ -68,6 +68,7 @@ class Partition {
   std::vector<CriticalRegion> critical_regions;
   std::vector<Zone> zones;
   std::vector<Split> history;
+  std::int64_t lines_tried = 0;
 
   const std::vector<FilteredPolynomial<2>>& curves() const { return curves_; }
   Kernel& kernel() { return kernel_; }
