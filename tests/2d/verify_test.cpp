@@ -213,6 +213,15 @@ TEST(Verify, ObjectsToAWrongPartition) {
   expect_objection(
       relaxed(), [](auto& m) { m.cells[0].vertices[2].parameter += 0.5; },
       "does not follow its predecessor");
+  expect_objection(
+      e, [](auto& m) { m.history.push_back(m.history[1]); }, "cuts nothing");
+  expect_objection(
+      two_lines(),
+      [](auto& m) {
+        m.cells.clear();
+        m.crossings[0].cell = -1;
+      },
+      "There are no cells");
 }
 
 TEST(Verify, ObjectsToAWrongRegion) {
