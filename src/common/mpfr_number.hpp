@@ -60,7 +60,12 @@ inline void assign(Mpfr& r, const Rational& x) { mpfr_set_q(r.get(), x.get_mpq_t
 inline void add_product(double& r, double a, double b) { r += a * b; }
 inline void add_product(long double& r, long double a, long double b) { r += a * b; }
 inline void add_product(Mpfr& r, const Mpfr& a, const Mpfr& b) {
-  mpfr_fma(r.get(), a.get(), b.get(), r.get(), MPFR_RNDN);
+  // Product and sum, each rounded: several times faster than MPFR's fused operation.
+  thread_local Mpfr product(MPFR_PREC_MIN);
+  if (mpfr_get_prec(product.get()) != mpfr_get_prec(r.get()))
+    mpfr_set_prec(product.get(), mpfr_get_prec(r.get()));
+  mpfr_mul(product.get(), a.get(), b.get(), MPFR_RNDN);
+  mpfr_add(r.get(), r.get(), product.get(), MPFR_RNDN);
 }
 inline void multiply(double& r, double a) { r *= a; }
 inline void multiply(long double& r, long double a) { r *= a; }
