@@ -106,6 +106,27 @@ TEST(CellComplex, KeepsCutsApartThatDoublesCannotTellFromACorner) {
   EXPECT_EQ(euler_characteristic(complex.value()), 1);
 }
 
+TEST(CellComplex, IsADiscForAComputedEncasement) {
+  // (x^2 + y^2)^2 - x^3 + 3 x y^2 = 1/100 and 10 x^2 - 8 x y + 4 y^2 - 2 x + y = 1 meet six times.
+  const auto x = Polynomial<2>::variable(0), y = Polynomial<2>::variable(1);
+  const auto c = [](const char* value) { return Polynomial<2>::constant(Rational(value)); };
+  const std::vector<NamedCurve> curves = {
+      {"clover", (x * x + y * y).power(2) - x.power(3) + c("3") * x * y * y - c("1/100")},
+      {"ellipse", c("10") * x * x - c("8") * x * y + c("4") * y * y - c("2") * x + y - c("1")}};
+  const auto region =
+      make_region(Rational(-13, 10), Rational(13, 10), Rational(-13, 10), Rational(13, 10));
+  const auto e = encase(curves, region.value());
+  ASSERT_TRUE(e.ok());
+  ASSERT_EQ(e.value().outcome, Outcome::Certified);
+  ASSERT_GT(e.value().cells.size(), 3u);
+  const auto complex = make_cell_complex(e.value());
+  ASSERT_TRUE(complex.ok());
+  EXPECT_EQ(euler_characteristic(complex.value()), 1);
+  Rational sum = 0;
+  for (const auto& cell : complex.value().cells) sum += area(complex.value(), cell);
+  EXPECT_EQ(sum, Rational(169, 25));
+}
+
 TEST(CellComplex, RefusesWhatIsNoPolygon) {
   Encasement e = sample::circle_and_line();
   e.cells[2].vertices.resize(2);
