@@ -130,6 +130,20 @@ void propose_between_branches(const std::vector<BoundaryPoint>& points, int curv
       }
     keep_closest(pairs, 4);
     for (const Pair& p : pairs) selection.propose(between(points[p.a], points[p.b]));
+    // Where a line has cut off the tip of a bend, the branches that leave the tip on both sides are
+    // neighbours of different parity, and told apart by the bisector of their ends.
+    std::vector<int> own;
+    for (int i = 0; i < static_cast<int>(points.size()); ++i)
+      if (points[i].curve == c) own.push_back(i);
+    if (own.size() < 4) continue;
+    pairs.clear();
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const int a = own[i], b = own[(i + 1) % own.size()];
+      pairs.push_back({a, b, distance(points[a].at, points[b].at)});
+    }
+    keep_closest(pairs, 1);
+    const BoundaryPoint &a = points[pairs[0].a], &b = points[pairs[0].b];
+    selection.propose(line_through(halfway(a.at, b.at), minus(b.at, a.at)));
   }
 }
 
