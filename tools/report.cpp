@@ -99,7 +99,9 @@ std::string unresolved_list(const Encasement& encasement, const std::vector<Unre
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "\n{}:\n", title);
-  for (const Unresolved& u : list) {
+  constexpr std::size_t kMostShown = 20;
+  for (std::size_t i = 0; i < std::min(list.size(), kMostShown); ++i) {
+    const Unresolved& u = list[i];
     const bool of_input = u.kind == Unresolved::Kind::SharedComponent ||
                           u.kind == Unresolved::Kind::RepeatedComponent;
     std::string curves;
@@ -113,6 +115,8 @@ std::string unresolved_list(const Encasement& encasement, const std::vector<Unre
                      u.box.hi[1]);
     if (!u.reason.empty()) fmt::format_to(out, "    {}\n", u.reason);
   }
+  if (list.size() > kMostShown)
+    fmt::format_to(out, "  and {} more: --json lists them all\n", list.size() - kMostShown);
   return text;
 }
 

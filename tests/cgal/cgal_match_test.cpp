@@ -169,7 +169,9 @@ void expect_match_in(const std::vector<NamedCurve>& curves, const CgalRoots& roo
   const auto result = encase(curves, region);
   ASSERT_TRUE(result.ok()) << result.error().message;
   const Encasement& encasement = result.value();
-  EXPECT_EQ(encasement.outcome, Outcome::Certified);
+  EXPECT_TRUE(encasement.outcome == Outcome::Certified);
+  for (const auto* list : {&encasement.degenerate, &encasement.undecided})
+    for (const Unresolved& u : *list) ADD_FAILURE() << u.reason;
   ASSERT_EQ(encasement.curves.size(), 2u);
   expect_roots_match(encasement, 0, 1, roots);
   expect_verified(encasement);

@@ -437,13 +437,17 @@ class Interrupt(CommandTest):
         process = subprocess.Popen([ENCASE, "curves", "-", "--json", path, "--max-seconds", "100"],
                                    stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True)
-        process.stdin.write(text)
-        process.stdin.close()
-        time.sleep(1.5)
-        process.send_signal(signal.SIGINT)
-        code = process.wait(timeout=60)
-        process.stdout.close()
-        process.stderr.close()
+        try:
+            process.stdin.write(text)
+            process.stdin.close()
+            time.sleep(1.5)
+            process.send_signal(signal.SIGINT)
+            code = process.wait(timeout=30)
+        finally:
+            process.kill()
+            process.wait()
+            process.stdout.close()
+            process.stderr.close()
         self.assertEqual(code, 4)
         with open(path) as file:
             self.assertEqual(json.load(file)["status"], "undecided")
