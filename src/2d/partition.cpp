@@ -28,6 +28,13 @@ bool clear_of(const FilteredPolynomial<2>& f, const Line& line, const Interval& 
 
 }  // namespace
 
+Partition::Partition(const std::vector<FilteredPolynomial<2>>& curves, Kernel& kernel)
+    : curves_(curves), kernel_(kernel) {
+  for (const FilteredPolynomial<2>& f : curves)
+    partials_.push_back({FilteredPolynomial<2>(f.exact().derivative(0)),
+                         FilteredPolynomial<2>(f.exact().derivative(1))});
+}
+
 bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
   // Refine neighbours until all intervals are disjoint.
   for (int round = 0; round < kMaxRefinements; ++round) {

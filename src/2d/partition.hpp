@@ -59,8 +59,7 @@ struct Cut {
 
 class Partition {
  public:
-  Partition(const std::vector<FilteredPolynomial<2>>& curves, Kernel& kernel)
-      : curves_(curves), kernel_(kernel) {}
+  Partition(const std::vector<FilteredPolynomial<2>>& curves, Kernel& kernel);
 
   std::vector<Line> lines;
   std::vector<LineCrossing> line_crossings;
@@ -71,6 +70,8 @@ class Partition {
   std::int64_t lines_tried = 0;
 
   const std::vector<FilteredPolynomial<2>>& curves() const { return curves_; }
+  /// The partial derivatives of a curve's polynomial (each scaled on its own), for heuristics.
+  const std::array<FilteredPolynomial<2>, 2>& partials(int curve) const { return partials_[curve]; }
   Kernel& kernel() { return kernel_; }
 
   /// The polygon with the given sides (its inside negative) as the first cell, its sides crossed by
@@ -111,6 +112,7 @@ class Partition {
   std::optional<int> crossings_before(const OpenCell& cell, int edge, const Interval& parameter);
 
   const std::vector<FilteredPolynomial<2>>& curves_;
+  std::vector<std::array<FilteredPolynomial<2>, 2>> partials_;
   Kernel& kernel_;
   std::vector<Spot> spots_;  ///< of the first line crossings
 };

@@ -116,7 +116,42 @@ void propose_between_crossings(const Partition& partition, const OpenCell& cell,
         line_through(halfway(points[p.a], points[p.b]), minus(points[p.b], points[p.a])));
 }
 
-void propose_between_branches(const std::vector<BoundaryPoint>& points, int curve_count,
+/// A line through a saddle of the curve's polynomial near a point: two branches that nearly meet
+/// pass on both sides of one, and along the direction in which f moves away from zero there, no
+/// branch is near.
+void propose_through_saddle(const Partition& partition, const OpenCell& cell, int curve,
+                            Point<2> at, Selection& selection) {
+  Box<2> bounds{middle(cell.vertices[0]), middle(cell.vertices[0])};
+  for (const auto& v : cell.vertices) bounds = hull(bounds, Box<2>{middle(v), middle(v)});
+  const auto& [fx, fy] = partition.partials(curve);
+  const double size = bounds.largest_width();
+  // The scales of the two derivatives differ by a power of two each; Newton does not mind.
+  for (int i = 0; i < 8; ++i) {
+    const Point<2> gx = fx.gradient(at), gy = fy.gradient(at);
+    const double vx = fx.approximate(at), vy = fy.approximate(at);
+    const double det = gx[0] * gy[1] - gx[1] * gy[0];
+    if (!(std::fabs(det) > 0)) return;
+    const Point<2> step{(vx * gy[1] - vy * gx[1]) / det, (vy * gx[0] - vx * gy[0]) / det};
+    at = minus(at, step);
+    if (!bounds.contains(at)) return;
+    if (std::hypot(step[0], step[1]) < 1e-9 * size) break;
+  }
+  const double scale_x = fx.scale(), scale_y = fy.scale();
+  const double a = fx.gradient(at)[0] * scale_x, b = fx.gradient(at)[1] * scale_x,
+               c = fy.gradient(at)[1] * scale_y;
+  if (a * c - b * b >= 0) return;
+  // The eigenvector whose eigenvalue has the sign of f is the line's direction; the other its
+  // normal.
+  const double sign = partition.curves()[curve].approximate(at) > 0 ? 1 : -1;
+  const double mean = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
+  const double other = mean - sign * spread;
+  const Point<2> first{b, other - a}, second{other - c, b};
+  selection.propose(line_through(
+      at, std::hypot(first[0], first[1]) > std::hypot(second[0], second[1]) ? first : second));
+}
+
+void propose_between_branches(const Partition& partition, const OpenCell& cell,
+                              const std::vector<BoundaryPoint>& points, int curve_count,
                               Selection& selection) {
   for (int c = 0; c < curve_count; ++c) {
     std::vector<Pair> pairs;
@@ -129,7 +164,11 @@ void propose_between_branches(const std::vector<BoundaryPoint>& points, int curv
         pairs.push_back({i, j, distance(points[i].at, points[j].at)});
       }
     keep_closest(pairs, 4);
-    for (const Pair& p : pairs) selection.propose(between(points[p.a], points[p.b]));
+    for (const Pair& p : pairs) {
+      const BoundaryPoint &a = points[p.a], &b = points[p.b];
+      selection.propose(between(a, b));
+      propose_through_saddle(partition, cell, c, halfway(a.at, b.at), selection);
+    }
     // Where a line has cut off the tip of a bend, the branches that leave the tip on both sides are
     // neighbours of different parity, and told apart by the bisector of their ends.
     std::vector<int> own;
@@ -261,7 +300,7 @@ std::optional<Cut> best_cut(Partition& partition, const OpenCell& cell) {
   }
   Selection selection(partition, cell);
   propose_between_crossings(partition, cell, selection);
-  propose_between_branches(points, static_cast<int>(counts.size()), selection);
+  propose_between_branches(partition, cell, points, static_cast<int>(counts.size()), selection);
   propose_between_curves(points, selection);
   if (!selection.best || selection.best->score > estimate + 0.1)
     propose_closest_approach(partition, cell, points, selection);
