@@ -272,25 +272,47 @@ bool refine_on_line(const FilteredPolynomial<2>& f, const Line& line, RootInterv
   return false;
 }
 
-bool one_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo, double hi,
+namespace {
+
+/// f has at most one root, a simple one, on the part of the line: one variation on an interval that
+/// contains it, or a derivative without zero.
+bool at_most_one_root(const FilteredPolynomial<2>& f, const Line& line, double lo, double hi,
                       Kernel& kernel) {
-  if (!(lo < hi) || !std::isfinite(lo) || !std::isfinite(hi)) return false;
-  const Sign low = sign_on_line(f, line, lo, kernel), high = sign_on_line(f, line, hi, kernel);
-  if (low == Sign::Zero || high == Sign::Zero || low == high) return false;
-  // Opposite signs at the ends: at least one root. At most one, and simple: one variation on an
-  // interval that contains [lo, hi], or a derivative without zero.
   Piece piece;
   piece.lo = lo;
   piece.hi = hi;
-  bool monotone = false;
+  bool proved = false;
   Bernstein<1> derivative;
   sharpen(f, line, &piece, kernel, [&](const Bernstein<1>& net) {
     differentiate(net, 0, &derivative);
-    monotone = count_roots(net) == Count::One || sign_on_cube(derivative).has_value();
-    return monotone || !drowned(derivative);
+    proved = count_roots(net) == Count::One || sign_on_cube(derivative).has_value();
+    return proved || !drowned(derivative);
   });
-  if (monotone) kernel.count(piece.bits);
-  return monotone;
+  if (proved) kernel.count(piece.bits);
+  return proved;
+}
+
+}  // namespace
+
+bool one_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo, double hi,
+                      Kernel& kernel) {
+  if (!(lo < hi) || !std::isfinite(lo) || !std::isfinite(hi)) return false;
+  // Opposite signs at the ends: at least one root.
+  const Sign low = sign_on_line(f, line, lo, kernel), high = sign_on_line(f, line, hi, kernel);
+  if (low == Sign::Zero || high == Sign::Zero || low == high) return false;
+  for (int halvings = 0; halvings < 40; ++halvings) {
+    if (at_most_one_root(f, line, lo, hi, kernel)) return true;
+    // An extremum beside the root, or another root just beyond an end: it is enough that the half
+    // between equal signs has no root.
+    const double middle = lo + 0.5 * (hi - lo);
+    if (!(lo < middle && middle < hi)) return false;
+    const Sign sign = sign_on_line(f, line, middle, kernel);
+    if (sign == Sign::Zero) return false;
+    if (!no_root_on_line(f, line, sign == low ? lo : middle, sign == low ? middle : hi, kernel))
+      return false;
+    (sign == low ? lo : hi) = middle;
+  }
+  return false;
 }
 
 namespace {

@@ -159,6 +159,18 @@ TEST(OneRootOnLine, FailsForNoneTwoThreeAndMultipleRoots) {
   EXPECT_FALSE(one_root_on_line(f, kXAxis, 0.5, 0, kernel));
 }
 
+TEST(OneRootOnLine, ExtremaAndRootsBesideTheIntervalDoNotDisturb) {
+  Kernel kernel;
+  // Two complex roots near the line, between an end and the root.
+  const auto f = filtered("(x - 9/10) ((x + 1/5)^2 + 1/10^6) + y");
+  EXPECT_TRUE(one_root_on_line(f, kXAxis, -1, 1, kernel));
+  EXPECT_FALSE(one_root_on_line(f, kXAxis, -1, 0.8, kernel));
+  // Another root just before the lower end.
+  const auto g = filtered("(x - 1/3) (x - 1/2) + y");
+  EXPECT_TRUE(one_root_on_line(g, kXAxis, std::nextafter(1.0 / 3, 1), 1, kernel));
+  EXPECT_FALSE(one_root_on_line(g, kXAxis, std::nextafter(1.0 / 3, 0), 1, kernel));
+}
+
 TEST(NoRoot, OnLinesAndSegmentsIncludesTheEnds) {
   const auto f = filtered("x^2 + y^2 - 1");
   Kernel kernel;
