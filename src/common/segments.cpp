@@ -304,13 +304,16 @@ bool one_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double l
     if (at_most_one_root(f, line, lo, hi, kernel)) return true;
     // An extremum beside the root, or another root just beyond an end: it is enough that the half
     // between equal signs has no root.
-    const double middle = lo + 0.5 * (hi - lo);
-    if (!(lo < middle && middle < hi)) return false;
-    const Sign sign = sign_on_line(f, line, middle, kernel);
-    if (sign == Sign::Zero) return false;
-    if (!no_root_on_line(f, line, sign == low ? lo : middle, sign == low ? middle : hi, kernel))
+    double cut = lo + 0.5 * (hi - lo);
+    Sign sign = sign_on_line(f, line, cut, kernel);
+    if (sign == Sign::Zero) {
+      cut = lo + 0.4375 * (hi - lo);
+      sign = sign_on_line(f, line, cut, kernel);
+    }
+    if (sign == Sign::Zero || !(lo < cut && cut < hi)) return false;
+    if (!no_root_on_line(f, line, sign == low ? lo : cut, sign == low ? cut : hi, kernel))
       return false;
-    (sign == low ? lo : hi) = middle;
+    (sign == low ? lo : hi) = cut;
   }
   return false;
 }
