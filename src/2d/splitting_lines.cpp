@@ -164,10 +164,10 @@ void propose_between_branches(const Partition& partition, const OpenCell& cell,
         pairs.push_back({i, j, distance(points[i].at, points[j].at)});
       }
     keep_closest(pairs, 4);
-    for (const Pair& p : pairs) {
-      const BoundaryPoint &a = points[p.a], &b = points[p.b];
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const BoundaryPoint &a = points[pairs[k].a], &b = points[pairs[k].b];
       selection.propose(between(a, b));
-      propose_through_saddle(partition, cell, c, halfway(a.at, b.at), selection);
+      if (k < 2) propose_through_saddle(partition, cell, c, halfway(a.at, b.at), selection);
     }
     // Where a line has cut off the tip of a bend, the branches that leave the tip on both sides are
     // neighbours of different parity, and told apart by the bisector of their ends.
