@@ -510,6 +510,23 @@ void Encaser::split_cells() {
   }
 }
 
+/// The meeting point of two lines, good to an ulp or so of `size`: from its enclosure where that is
+/// tight, in extended precision where the lines meet at a small angle, or exactly.
+Point<2> rounded_meet(const Line& first, const Line& second, const std::array<Interval, 2>& at,
+                      double size) {
+  const double width = std::max(at[0].width(), at[1].width());
+  if (width <= 0x1p-51 * size) return middle(at);
+  if (Kernel::kHasExtended && width <= 0x1p-42 * size && !first.rational && !second.rational) {
+    const long double a = first.normal[0], b = first.normal[1], c = first.offset;
+    const long double d = second.normal[0], e = second.normal[1], f = second.offset;
+    const long double determinant = a * e - b * d;
+    return {static_cast<double>((b * f - c * e) / determinant),
+            static_cast<double>((c * d - a * f) / determinant)};
+  }
+  const auto exact = exact_meet(first, second);
+  return {nearest_double(exact[0]), nearest_double(exact[1])};
+}
+
 Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
   Partition& partition = *partition_;
   Cell cell;
@@ -522,14 +539,9 @@ Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
   for (int k = 0; k < n; ++k) {
     const auto& edge = open.edges[k];
     const int before = open.edges[(k + n - 1) % n].line;
-    Vertex vertex{before, edge.line, 0, middle(open.vertices[k])};
-    // Lines that meet at a small angle are met exactly, then rounded.
-    for (int i = 0; i < 2; ++i)
-      if (open.vertices[k][i].width() > 0x1p-50 * size) {
-        const auto at = exact_meet(partition.lines[before], partition.lines[edge.line]);
-        vertex.point = {nearest_double(at[0]), nearest_double(at[1])};
-        break;
-      }
+    Vertex vertex{before, edge.line, 0, {}};
+    vertex.point =
+        rounded_meet(partition.lines[before], partition.lines[edge.line], open.vertices[k], size);
     cell.vertices.push_back(vertex);
     for (std::size_t i = 0; i < edge.crossings.size(); ++i) {
       if (i > 0) {
