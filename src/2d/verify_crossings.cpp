@@ -64,14 +64,9 @@ Interval derivative_range(const Bernstein<2>& net, int axis) {
   return Interval(*lo, *hi) + Interval(-derivative.radius, derivative.radius);
 }
 
-/// How a box is mapped to the cube of its net: an enclosure of the half width in use.
+/// The half width by which a box is mapped to the cube of its net.
 Interval half_width(const Box<2>& box, std::size_t axis) {
-  const double center = box.lo[axis] + 0.5 * (box.hi[axis] - box.lo[axis]);
-  const double below = center - box.lo[axis], above = box.hi[axis] - center;
-  const double half = std::fmax(below, above);
-  if (below == above && center - below == box.lo[axis] && center + above == box.hi[axis])
-    return half;
-  return {half * (1 - 0x1p-49), half * (1 + 0x1p-49) + std::fabs(center) * 0x1p-50};
+  return centered(box.lo[axis], box.hi[axis]).half;
 }
 
 /// Encloses z - p, where z is the only common zero of f and g in the crossing's box and p its

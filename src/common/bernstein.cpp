@@ -27,6 +27,7 @@ Stride stride_of(const std::array<int, K>& degree, int axis) {
 
 constexpr double kUnit = 0x1p-53;
 constexpr double kTiny = 0x1p-1060;  // more than what gradual underflow can lose in a net operation
+constexpr double kUp = 1 + 0x1p-50;  // outweighs the roundings of the sum it multiplies
 
 // The inner loops, over contiguous doubles.
 
@@ -124,7 +125,7 @@ void halve(const Bernstein<K>& net, int axis, Bernstein<K>* lower, Bernstein<K>*
   }
   // Each of at most n averages rounds once, relative to the largest coefficient; averages of exact
   // coefficients do not enlarge the radius.
-  const double radius = net.radius + 1.01 * (n + 1) * kUnit * largest(net.b) + kTiny;
+  const double radius = (net.radius + 1.01 * (n + 1) * kUnit * largest(net.b) + kTiny) * kUp;
   lower->radius = upper->radius = radius;
 }
 
@@ -172,7 +173,7 @@ void elevate(const Bernstein<K>& net, int axis, Bernstein<K>* out) {
     }
   }
   // A convex combination: the radius stays; weights, products and the sum round.
-  out->radius = net.radius + 6 * kUnit * largest(net.b) + kTiny;
+  out->radius = (net.radius + 6 * kUnit * largest(net.b) + kTiny) * kUp;
 }
 
 template <int K>

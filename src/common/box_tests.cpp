@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/interval.hpp"
+
 namespace encase {
 namespace {
 
@@ -262,20 +264,12 @@ bool exactly_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
   // in K(X). In local coordinates X = [-1, 1]^D and c = 0. Nets may cover slightly more than the
   // box where its centre is not a double; then a strictly smaller cube is asked for.
   SystemNets<D> nets;
-  Point<D> center = box.center();
   double shrink = 1.0;
   for (int i = 0; i < D; ++i) {
-    const double below = center[i] - box.lo[i], above = box.hi[i] - center[i];
-    if (!(below > 0 && above > 0)) return false;
-    // The net's half width is at most this much more than the smaller true one.
-    const double net_half = std::max(below, above) * (1 + 0x1p-50) + std::fabs(center[i]) * 0x1p-51;
-    const bool exact =
-        below == above && center[i] - below == box.lo[i] && center[i] + above == box.hi[i];
-    if (!exact) {
-      const double true_half =
-          std::min(below, above) * (1 - 0x1p-50) - std::fabs(center[i]) * 0x1p-51;
-      shrink = std::min(shrink, true_half / net_half * (1 - 0x1p-50));
-    }
+    const Centered chart = centered(box.lo[i], box.hi[i]);
+    const double least = std::min(chart.center - box.lo[i], box.hi[i] - chart.center);
+    if (!(least > 0)) return false;
+    if (!chart.exact) shrink = std::min(shrink, least / chart.half * (1 - 0x1p-49));
   }
   if (!(shrink > 0)) return false;
   return climb(

@@ -25,10 +25,10 @@ using Matrix = std::array<std::array<double, D>, D>;
 template <int D>
 bool excluded(const SystemNets<D>& nets);
 
-/// A preconditioner Y and a matrix E with |Y J - I| <= E entrywise for every Jacobian J (in the
-/// box's local coordinates) whose rows are gradients at any points of the box, and a positive
-/// vector v with E v < v. Then every such J is regular, so that the system has at most one zero on
-/// the box, a simple one.
+/// A preconditioner Y and a matrix E with |G - I| <= E entrywise for every matrix G whose row i is
+/// the gradient (in the nets' coordinates) of the i-th component of Y F at any point of the box,
+/// another point for every row if need be, and a positive vector v with E v < v. Then every such G
+/// is regular, so that the system has at most one zero on the box, a simple one.
 template <int D>
 struct Contraction {
   Matrix<D> preconditioner;

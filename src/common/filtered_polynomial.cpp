@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 
+#include "common/interval.hpp"
 #include "common/mpfr_number.hpp"
 #include "common/vectorized.hpp"
 #include "encase/encasement.hpp"
@@ -18,19 +19,21 @@
 namespace encase {
 namespace {
 
-/// gamma_m for MPFR or double arithmetic with the given precision, rounded up.
-double gamma(int roundings, int bits) { return 1.01 * roundings * std::ldexp(1.0, -bits); }
+/// gamma_m for MPFR or double arithmetic with the given precision, rounded up. Beyond 1000 bits it
+/// would come near what underflows; 1000 are claimed then.
+double gamma(int roundings, int bits) {
+  return 1.01 * roundings * std::ldexp(1.0, -std::min(bits, 1000));
+}
 
 /// More than gradual underflow can add up to in the double rung: every loss is below 2^-1000 (also
-/// that of converting a coefficient) and is amplified by at most (1 + |x|)^n in each variable.
+/// that of converting a coefficient), there are less than 2^30, and what is lost of a coefficient
+/// of a monomial is amplified like the monomial, by at most (1 + |x| + |y| + ...)^n.
 template <int D>
 double underflow(const Point<D>& magnitude, int degree) {
-  double bound = 0x1p-960;
-  for (double x : magnitude) {
-    double power = 1.0 + x;
-    for (int rest = degree; rest > 0; rest /= 2, power *= power)
-      if (rest % 2) bound *= power;
-  }
+  double bound = 0x1p-960, power = 1.0;
+  for (double x : magnitude) power += x;
+  for (int rest = degree; rest > 0; rest /= 2, power *= power)
+    if (rest % 2) bound *= power;
   return bound * (1 + 0x1p-40);
 }
 
@@ -110,7 +113,8 @@ void to_bernstein(const std::vector<double>& taylor, int n, double taylor_error,
     outer /= n + 1;
   }
   net->radius = radius;
-  if (!std::isfinite(radius)) {
+  // Far from overflow, or nothing is claimed.
+  if (!std::isfinite(radius) || !(sum < 0x1p900)) {
     net->b.assign(net->b.size(), 0.0);
     net->radius = std::numeric_limits<double>::infinity();
   }
@@ -270,8 +274,10 @@ void sum_out(Number* result, const Number* blocks, int n, int size, const Number
 
 template <int D>
 double FilteredPolynomial<D>::absolute(const Point<D>& magnitude) const {
-  // All terms are non-negative: a relative error of at most gamma of the depth.
-  return sum<double>(magnitudes_, magnitude, Kernel::kDoubleBits) * 1.0000001;
+  // All terms are non-negative: a relative error of at most gamma of the depth, and what underflows
+  // (which a precision beyond doubles would not lose).
+  return sum<double>(magnitudes_, magnitude, Kernel::kDoubleBits) * 1.0000001 +
+         underflow<D>(magnitude, degree_);
 }
 
 template <int D>
@@ -302,13 +308,9 @@ void FilteredPolynomial<D>::expand(const Box<D>& box, int net_degree, int bits, 
   ++kernel.expansions;
   Point<D> center, half, reach;
   for (int i = 0; i < D; ++i) {
-    center[i] = box.lo[i] + 0.5 * (box.hi[i] - box.lo[i]);
-    // The larger of the two exact differences, rounded up unless they are exact and equal.
-    const double below = center[i] - box.lo[i], above = box.hi[i] - center[i];
-    half[i] = std::max(below, above);
-    const bool exact =
-        below == above && center[i] - below == box.lo[i] && center[i] + above == box.hi[i];
-    if (!exact) half[i] = half[i] * (1 + 0x1p-50) + std::fabs(center[i]) * 0x1p-51;
+    const Centered chart = centered(box.lo[i], box.hi[i]);
+    center[i] = chart.center;
+    half[i] = chart.half;
     reach[i] = (std::fabs(center[i]) + half[i]) * (1 + 0x1p-50);
   }
   const int n = degree_ + 1;
@@ -384,6 +386,16 @@ SegmentChart SegmentChart::part(double lo, double hi) const {
   return chart;
 }
 
+double reach_across(const Line& line, double reach) {
+  const int p = parameter_axis(line), q = 1 - p;
+  const double b = std::fabs(line.normal[q]);
+  if (!(b >= 0x1p-900)) return std::numeric_limits<double>::infinity();
+  // Underflow loses less than 2^-1070 in a coefficient or product: nothing beside 2^-1000.
+  return ((std::fabs(line.normal[p]) + 0x1p-1000) * reach + std::fabs(line.offset) + 0x1p-1000) /
+             b * (1 + 0x1p-40) +
+         0x1p-1000;
+}
+
 int SegmentChart::roundings() const {
   // On a line: a p, + c, / b, and two more for each of three rational coefficients that are
   // rounded; between two points: sum or difference, times the middle, sum.
@@ -394,9 +406,7 @@ template <class Number>
 void SegmentChart::origin_and_direction(std::array<Number, 2>* origin,
                                         std::array<Number, 2>* direction) const {
   // The parameter p = m + h s.
-  const double m = lo_ + 0.5 * (hi_ - lo_);
-  double h = std::max(m - lo_, hi_ - m);
-  if (!(m - h == lo_ && m + h == hi_)) h = h * (1 + 0x1p-50) + std::fabs(m) * 0x1p-51;
+  const double m = centered(lo_, hi_).center, h = centered(lo_, hi_).half;
   Number half = (*origin)[0];
   if (!on_line_) {
     // (from + to) / 2 + (to - from) / 2 (m + h s)
@@ -448,8 +458,7 @@ void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, K
     const int p = parameter_axis(line), q = 1 - p;
     reach[p] = std::max(std::fabs(segment.lo_), std::fabs(segment.hi_)) * (1 + 0x1p-40) +
                (segment.hi_ - segment.lo_);
-    reach[q] = (std::fabs(line.normal[p]) * reach[p] + std::fabs(line.offset)) /
-               std::fabs(line.normal[q]) * (1 + 0x1p-40);
+    reach[q] = reach_across(line, reach[p]);
   } else {
     for (int i = 0; i < 2; ++i)
       reach[i] = 2 * (std::fabs(segment.from_[i]) + std::fabs(segment.to_[i])) * (1 + 0x1p-40);

@@ -38,6 +38,11 @@ class SegmentChart {
   Point<2> from_{}, to_{};
 };
 
+/// For |t| <= reach: a bound on |a t / b| + |c / b|, the terms of the other coordinate of the
+/// line's point with parameter t. Its rounding error is relative to this, also where something
+/// underflows.
+double reach_across(const Line& line, double reach);
+
 /// An exact polynomial with what the kernel needs to ask about it quickly: its coefficients as
 /// doubles, and on demand in MPFR at any precision. Scaled by a power of two so that the largest
 /// coefficient lies in [1/2, 2). Immutable but for the cache of MPFR coefficients, which is
@@ -82,7 +87,7 @@ class FilteredPolynomial {
   /// The exact sign at a rational point: doubles, MPFR, then exact arithmetic. Never fails.
   Sign sign_at(const RationalPoint<D>& point, Kernel& kernel) const;
 
-  /// |f|(|x|): the sum of |coefficient| |x_0|^i |x_1|^j ..., rounded up, for x >= 0.
+  /// |f|(x) for x >= 0: the sum of |coefficient| x_0^i x_1^j ..., rounded up.
   double absolute(const Point<D>& magnitude) const;
 
  private:

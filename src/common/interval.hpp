@@ -41,6 +41,29 @@ inline double round_up(double x) {
   return x + (std::fabs(x) * 0x1p-52 + std::numeric_limits<double>::denorm_min());
 }
 
+/// Whether the difference of two doubles is a double: the rounding error of a - b, which Knuth's
+/// TwoSum computes exactly, is zero. False where something overflows.
+inline bool exact_difference(double a, double b) {
+  const double difference = a - b, first = difference + b, second = difference - first;
+  return (a - first) + (-b - second) == 0;
+}
+
+/// How [lo, hi] is mapped to [-1, 1]: by the double next to its middle and a half width such that
+/// [center - half, center + half] contains [lo, hi], and is [lo, hi] if `exact`.
+struct Centered {
+  double center;
+  double half;
+  bool exact;
+};
+inline Centered centered(double lo, double hi) {
+  const double center = lo + 0.5 * (hi - lo), below = center - lo, above = hi - center;
+  // (That adding the differences again gives lo and hi would not prove them exact: a tie can be
+  // rounded away and back.)
+  if (below == above && exact_difference(center, lo) && exact_difference(hi, center))
+    return {center, below, true};
+  return {center, (below < above ? above : below) * (1 + 0x1p-50), false};
+}
+
 inline Interval operator-(const Interval& a) { return {-a.hi, -a.lo}; }
 inline Interval operator+(const Interval& a, const Interval& b) {
   return {round_down(a.lo + b.lo), round_up(a.hi + b.hi)};

@@ -76,6 +76,9 @@ std::optional<Box<D>> enclose_root(const System<D>& system, const Box<D>& around
   constexpr double kUp = 1 + 0x1p-40;
   std::optional<Box<D>> best;
   double best_width = HUGE_VAL;
+  // The half widths of the net that the contraction comes from, or a little more.
+  Point<D> half;
+  for (int k = 0; k < D; ++k) half[k] = centered(around.lo[k], around.hi[k]).half;
   for (int bits = kernel.start_bits; bits > 0; bits = kernel.next(bits)) {
     for (int step = 0; step < 6; ++step) {
       std::array<double, D> correction{}, residual{}, value{};
@@ -95,27 +98,25 @@ std::optional<Box<D>> enclose_root(const System<D>& system, const Box<D>& around
       for (int k = 0; k < D; ++k) {
         double image = 0;
         for (int j = 0; j < D; ++j) image += c.bound[k][j] * c.weights[j];
-        const double half = 0.5 * around.width(k);
         t = std::max(t, 16 * residual[k] / (c.weights[k] - image * kUp));
-        const double size = std::max(std::fabs(x[k]), 0x1p-20 * half);
-        t = std::max(t, 16 * ulp(size) / (c.weights[k] * half));
+        const double size = std::max(std::fabs(x[k]), 0x1p-20 * half[k]);
+        t = std::max(t, 16 * ulp(size) / (c.weights[k] * half[k]));
       }
       Box<D> box;
       std::array<double, D> radius;
       bool inside = std::isfinite(t);
       double relative_width = 0;
       for (int k = 0; k < D && inside; ++k) {
-        const double half = 0.5 * around.width(k);
         // A multiple of some ulps, so that x is exactly the centre.
-        const double wanted = t * c.weights[k] * half * kUp;
+        const double wanted = t * c.weights[k] * half[k] * kUp;
         const double unit = 4 * ulp(std::fabs(x[k]) + wanted);
         const double r = std::ceil(wanted / unit) * unit;
         box.lo[k] = x[k] - r;
         box.hi[k] = x[k] + r;
         inside = around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k];
         // What is proved holds for a box inside the rounded one.
-        radius[k] = (r - 2 * ulp(x[k])) / half * (1 - 0x1p-40);
-        relative_width = std::max(relative_width, r / half);
+        radius[k] = (r - 2 * ulp(x[k])) / half[k] * (1 - 0x1p-40);
+        relative_width = std::max(relative_width, r / half[k]);
       }
       if (inside) {
         bool proved = true;

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cfloat>
 #include <cstdint>
 #include <limits>
 
 #include "encase/number.hpp"
 
 namespace encase {
+
+// What the error bounds assume of doubles: IEEE arithmetic without excess precision (as with the
+// x87) and without fast-math. Rounding to nearest is assumed too, and contraction must be off.
+static_assert(std::numeric_limits<double>::is_iec559 && FLT_EVAL_METHOD == 0);
 
 /// The precision ladder of one computation and its counters. Precision is never global: what climbs
 /// the ladder takes the kernel as an argument. Not shared between threads.

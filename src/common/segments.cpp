@@ -100,9 +100,9 @@ double snap_outward(double* lo, double* hi) {
 }
 
 bool exact_middle(double lo, double hi, double* middle) {
-  *middle = lo + 0.5 * (hi - lo);
-  const double below = *middle - lo, above = hi - *middle;
-  return below == above && below > 0 && *middle - below == lo && *middle + above == hi;
+  const Centered chart = centered(lo, hi);
+  *middle = chart.center;
+  return chart.exact && chart.half > 0;
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomia
   std::vector<RootInterval> roots;
   std::vector<Piece> stack(1);
   stack[0].bits = kernel.start_bits;
-  const Bernstein<1>& net = stack[0].net;
+  const Bernstein<1>& whole = stack[0].net;
   for (int tries = 0;; ++tries) {
     double middle_of_all;
     if (!exact_middle(low, high, &middle_of_all)) return std::nullopt;
@@ -125,11 +125,11 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomia
     f.restrict_to(SegmentChart::of_line(line, low, high), kernel.start_bits, kernel, &stack[0].net);
     // A zero at an end that only the enlargement brought in: enlarge further.
     const auto zero_end = [&](double value, double end, double asked) {
-      return end != asked && !(std::fabs(value) > net.radius) &&
+      return end != asked && !(std::fabs(value) > whole.radius) &&
              sign_on_line(f, line, end, kernel) == Sign::Zero;
     };
-    const bool at_low = zero_end(net.b.front(), low, lo),
-               at_high = zero_end(net.b.back(), high, hi);
+    const bool at_low = zero_end(whole.b.front(), low, lo),
+               at_high = zero_end(whole.b.back(), high, hi);
     if (tries == 3 || !(at_low || at_high)) break;
     if (at_low) low -= unit;
     if (at_high) high += unit;
@@ -208,8 +208,7 @@ typename FilteredPolynomial<2>::Value value_on_line(const FilteredPolynomial<2>&
   at[p] = parameter;
   at[q] = -(line.normal[p] * parameter + line.offset) / line.normal[q];
   reach[p] = std::fabs(parameter);
-  reach[q] = (std::fabs(line.normal[p]) * reach[p] + std::fabs(line.offset)) /
-             std::fabs(line.normal[q]) * (1 + 0x1p-40);
+  reach[q] = reach_across(line, reach[p]);
   // The other coordinate carries up to nine roundings, relative to reach[q] (as in SegmentChart).
   return f.evaluate_rounded(at, reach, 9);
 }
@@ -472,8 +471,9 @@ std::optional<Sign> side(const Line& line, const Box<2>& box, Kernel& kernel) {
   // The extreme corners with respect to the line's normal.
   Point<2> low, high;
   for (int i = 0; i < 2; ++i) {
-    low[i] = line.normal[i] < 0 ? box.hi[i] : box.lo[i];
-    high[i] = line.normal[i] < 0 ? box.lo[i] : box.hi[i];
+    const bool falls = line.rational ? sgn((*line.rational)[i]) < 0 : line.normal[i] < 0;
+    low[i] = falls ? box.hi[i] : box.lo[i];
+    high[i] = falls ? box.lo[i] : box.hi[i];
   }
   if (side(line, low, kernel) == Sign::Positive) return Sign::Positive;
   if (side(line, high, kernel) == Sign::Negative) return Sign::Negative;

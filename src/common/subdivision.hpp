@@ -63,11 +63,10 @@ class Subdivision {
 /// The halves of a box; false unless the cut is exact in doubles and strictly inside.
 template <int D>
 bool halve_box(const Box<D>& box, int axis, Box<D>* lower, Box<D>* upper) {
-  const double lo = box.lo[axis], hi = box.hi[axis], middle = lo + 0.5 * (hi - lo);
-  const double below = middle - lo, above = hi - middle;
-  if (!(below == above && below > 0 && middle - below == lo && middle + above == hi)) return false;
+  const Centered cut = centered(box.lo[axis], box.hi[axis]);
+  if (!cut.exact || !(cut.half > 0)) return false;
   *lower = *upper = box;
-  lower->hi[axis] = upper->lo[axis] = middle;
+  lower->hi[axis] = upper->lo[axis] = cut.center;
   return true;
 }
 
@@ -99,7 +98,8 @@ struct SubdivisionLimits {
 /// `visit(nets, box)` returns a token that settles the box, or one of the split tokens. Boxes
 /// outside one of the half spaces (positive side) are settled as kOutside, and boxes that would
 /// have to be split beyond the limits as kUnresolved. A net whose radius has become a noticeable
-/// part of it is expanded anew around its box, in doubles, then in MPFR.
+/// part of it is expanded anew around its box, in doubles, then in MPFR. All nets of a box share
+/// their coordinates; these are the box's own, or those of `expand` on it.
 template <int D, int N, class Visit>
 Subdivision<D> subdivide(const std::array<const FilteredPolynomial<D>*, N>& polynomials,
                          const Box<D>& root, const std::vector<Hyperplane<D>>& half_spaces,
@@ -119,13 +119,13 @@ Subdivision<D> subdivide(const std::array<const FilteredPolynomial<D>*, N>& poly
       for (int i = 0; i < D; ++i)
         value = value +
                 Interval(plane.normal[i]) * Interval(plane.normal[i] < 0 ? box.hi[i] : box.lo[i]);
-      // Rational coefficients are within an ulp of the doubles.
+      // Rational coefficients are within an ulp of the doubles, also below the normal range.
       double slack = 0;
       if (plane.rational) {
-        slack = std::fabs(plane.offset);
+        slack = std::fabs(plane.offset) + 0x1p-1000;
         for (int i = 0; i < D; ++i)
-          slack +=
-              std::fabs(plane.normal[i]) * std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));
+          slack += (std::fabs(plane.normal[i]) + 0x1p-1000) *
+                   std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));
         slack *= 0x1p-49;
       }
       if (value.lo > slack) return true;
@@ -134,6 +134,10 @@ Subdivision<D> subdivide(const std::array<const FilteredPolynomial<D>*, N>& poly
   };
   // Small boxes are where curves touch or nearly touch, and only the last digits tell them apart.
   const auto sharpen = [&](Item& item) {
+    // Nets of one box must share their coordinates, and a fresh net has those of a slightly larger
+    // box if the centre is not a double. (Such a box is not halved any more.)
+    for (int i = 0; i < D; ++i)
+      if (!centered(item.box.lo[i], item.box.hi[i]).exact) return;
     bool small = false;
     for (int i = 0; i < D; ++i) small = small || item.box.width(i) < 0x1p-16 * root.width(i);
     const double tolerated = small ? 0x1p-40 : 0x1p-10;
