@@ -123,10 +123,9 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomia
     stack[0].lo = low;
     stack[0].hi = high;
     f.restrict_to(SegmentChart::of_line(line, low, high), kernel.start_bits, kernel, &stack[0].net);
-    // A zero at an end that only the enlargement brought in: enlarge further.
+    // A zero at or near an end that only the enlargement brought in: enlarge further.
     const auto zero_end = [&](double value, double end, double asked) {
-      return end != asked && !(std::fabs(value) > whole.radius) &&
-             sign_on_line(f, line, end, kernel) == Sign::Zero;
+      return end != asked && !(std::fabs(value) > whole.radius);
     };
     const bool at_low = zero_end(whole.b.front(), low, lo),
                at_high = zero_end(whole.b.back(), high, hi);

@@ -239,6 +239,15 @@ TEST(Encase, CurvesThatEnterWhereTheGridOfASideEndsAreCertified) {
   EXPECT_EQ(inside(e), 2);
 }
 
+TEST(Encase, CircleThatTheSidesCutOffIsCertified) {
+  for (const Rational side :
+       {Rational(99, 100), Rational(999, 1000), Rational(9999999, 10000000)}) {
+    expect_certified(run({"x^2 + y^2 - 1"}, rectangle(-side, side, -side, side)));
+    expect_certified(run({"x^2 + y^2 - 1"}, rectangle(-side, 1.1, -1.1, side)));
+    expect_certified(run({"x^2 + y^2 - 1"}, rectangle(-side, side, -0.01, side)));
+  }
+}
+
 TEST(Encase, NearlyTangentCurvesAreCertified) {
   const Encasement two = run({"y - x^2", "y - 1/10^12"});
   expect_certified(two);

@@ -125,6 +125,16 @@ TEST(IsolateOnLine, RootAtAnEndIsNotSettled) {
   EXPECT_TRUE(outside->empty());
 }
 
+TEST(IsolateOnLine, RootNearAnEndOfTheEnlargedIntervalIsTold) {
+  // [-0.999, 0.999] is enlarged to [-1, 1]; the roots are at 1 or a rounding error beside it.
+  const auto f = filtered("x^2 + y^2 - 1");
+  for (const double y : {0.0, 1e-30, 1e-17, 1e-9}) {
+    const auto roots = isolate(f, line(0, 1, -y), -0.999, 0.999);
+    ASSERT_TRUE(roots.has_value()) << y;
+    EXPECT_TRUE(roots->empty());
+  }
+}
+
 TEST(IsolateOnLine, CurveThatContainsTheLineIsNotSettled) {
   EXPECT_FALSE(isolate(filtered("y (x^2 + y - 1/2)"), kXAxis, -1, 1));
   EXPECT_FALSE(isolate(filtered("(x/3 + y/7 - 1/10) x"),
