@@ -240,7 +240,7 @@ TEST(Encase, CurvesThatEnterWhereTheGridOfASideEndsAreCertified) {
 }
 
 TEST(Encase, CircleThatTheSidesCutOffIsCertified) {
-  for (const Rational side :
+  for (const Rational& side :
        {Rational(99, 100), Rational(999, 1000), Rational(9999999, 10000000)}) {
     expect_certified(run({"x^2 + y^2 - 1"}, rectangle(-side, side, -side, side)));
     expect_certified(run({"x^2 + y^2 - 1"}, rectangle(-side, 1.1, -1.1, side)));
