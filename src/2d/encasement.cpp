@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -189,7 +190,7 @@ void Encaser::give_up_on_region() {
   const int n = static_cast<int>(partition_->lines.size());
   for (int k = 0; k < n; ++k) {
     cell.vertices.push_back(meet(partition_->lines[(k + n - 1) % n], partition_->lines[k]));
-    cell.edges.push_back({k, {}});
+    cell.edges.push_back({k, false, {}});
   }
   finished_.push_back({std::move(cell), CellState::Undecided, {}});
   budget_ = "the curves' crossings with the region's sides could not be told apart";
@@ -463,7 +464,7 @@ void Encaser::split_cells() {
       partition.crossings[k].location = Location::Outside;
   }
   for (std::size_t k = 0; k < partition.critical_regions.size(); ++k)
-    if (partition.inside(partition.critical_regions[k], first_cell_))
+    if (partition.inside(partition.critical_regions[k]))
       first_cell_.critical_regions.push_back(static_cast<int>(k));
   for (std::size_t k = 0; k < partition.zones.size(); ++k) {
     bool outside = false;
@@ -632,6 +633,10 @@ void Encaser::decide_outcome() {
 
 Result<Encasement> encase(const std::vector<NamedCurve>& curves, const Region& region,
                           const EncaseOptions& options) {
+  if (std::fegetround() != FE_TONEAREST)
+    return Error{Error::Code::BadInput,
+                 "the processor must round to nearest while curves are encased; call "
+                 "std::fesetround(FE_TONEAREST)"};
   Encaser run(curves, region, options);
   if (const Status bad = run.check_input()) return *bad;
   run.separate_components();

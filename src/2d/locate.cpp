@@ -75,19 +75,22 @@ void locate_crossings(Encasement& encasement, Kernel& kernel) {
       const Line line = encasement.region.side(k);
       std::optional<Sign> where = side(line, crossing.box, kernel);
       if (!where && on_line(encasement, crossing, line)) where = Sign::Zero;
-      // Not on the line: some precision tells the side.
+      // Not on the line: some precision tells the side. The box is narrowed to what tells it.
       for (int bits = 64; !where && bits <= (1 << 20); bits *= 2) {
-        const auto box = refine(encasement, static_cast<int>(id), bits);
-        if (!box) break;
-        int signs = 0;
-        for (int corner = 0; corner < 4; ++corner)
-          signs += static_cast<int>(
-              side(line,
-                   RationalPoint<2>{(corner & 1 ? box.value().hi : box.value().lo)[0],
-                                    (corner & 2 ? box.value().hi : box.value().lo)[1]},
-                   kernel));
-        if (signs == 4) where = Sign::Positive;
-        if (signs == -4) where = Sign::Negative;
+        const auto exact = refine(encasement, static_cast<int>(id), bits);
+        if (!exact) break;
+        Box<2> box;
+        for (int i = 0; i < 2; ++i) {
+          // Some room around the common point, so that the box is easily proved to hold it.
+          const Rational width = exact.value().hi[i] - exact.value().lo[i];
+          box.lo[i] = Interval::enclose(Rational(exact.value().lo[i] - 4 * width)).lo;
+          box.hi[i] = Interval::enclose(Rational(exact.value().hi[i] + 4 * width)).hi;
+        }
+        where = side(line, box, kernel);
+        if (where && crossing.box.contains(box)) {
+          crossing.box = box;
+          crossing.point = box.center();
+        }
       }
       if (where == Sign::Positive) {
         crossing.location = Location::Outside;

@@ -57,6 +57,7 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
 
 std::optional<OpenCell> Partition::open(const std::vector<Line>& sides) {
   lines = sides;
+  side_count_ = static_cast<int>(sides.size());
   line_crossings.clear();
   spots_.clear();
   OpenCell cell;
@@ -100,9 +101,7 @@ std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
                                                const Interval& parameter) {
   const OpenCell::Edge& e = cell.edges[edge];
   const Line& line = lines[e.line];
-  const int axis = parameter_axis(line);
-  const std::size_t next = (edge + 1) % cell.edges.size();
-  const bool ascending = cell.vertices[edge][axis].mid() < cell.vertices[next][axis].mid();
+  const bool ascending = parameter_grows(line, e.positive);
   int before = 0;
   for (const int id : e.crossings) {
     LineCrossing& c = line_crossings[id];
@@ -124,6 +123,7 @@ std::vector<int> Partition::crossing_counts(const OpenCell& cell) const {
 
 std::vector<int> Partition::alive(const OpenCell& cell) const {
   std::vector<int> counts = crossing_counts(cell), result;
+  if (!cell.zones.empty()) counts.assign(counts.size(), 1);
   for (const int k : cell.critical_regions) ++counts[critical_regions[k].curve];
   for (std::size_t c = 0; c < counts.size(); ++c)
     if (counts[c] > 0) result.push_back(static_cast<int>(c));
@@ -190,25 +190,18 @@ double Partition::estimate(const std::vector<int>& counts, const std::vector<int
   return std::max(1.0, total);
 }
 
-bool Partition::inside(const CriticalRegion& region, const OpenCell& cell) {
-  for (const auto& edge : cell.edges) {
-    // The inside of an edge's line is the side of the cell's other vertices.
-    const Line& line = lines[edge.line];
-    Sign within = Sign::Zero;
-    for (const auto& v : cell.vertices) {
-      const auto at = middle(v);
-      const double d = line.normal[0] * at[0] + line.normal[1] * at[1] + line.offset;
-      const double scale = std::fabs(line.normal[0] * at[0]) + std::fabs(line.normal[1] * at[1]) +
-                           std::fabs(line.offset);
-      if (std::fabs(d) > 1e-9 * scale) {
-        within = d < 0 ? Sign::Negative : Sign::Positive;
-        break;
-      }
-    }
+bool Partition::inside(const CriticalRegion& region) {
+  // The sides come first among the lines; their inside is negative.
+  for (int k = 0; k < side_count_; ++k)
     for (const auto& box : region.boxes)
-      if (side(line, box, kernel_) != within) return false;
-  }
+      if (side(lines[k], box, kernel_) != Sign::Negative) return false;
   return true;
+}
+
+bool parameter_grows(const Line& line, bool positive) {
+  // With the inside to the left, the direction is (-b, a) on the negative side of a x + b y + c.
+  const double along = parameter_axis(line) == 0 ? -line.normal[1] : line.normal[0];
+  return (along > 0) != positive;
 }
 
 std::optional<Cut> Partition::try_line(const OpenCell& cell, const Line& line, double enough) {
@@ -326,22 +319,24 @@ bool Partition::apply(const OpenCell& cell, Cut cut, OpenCell* negative, OpenCel
                          int end, int keep, const std::array<Interval, 2>& stop) {
     *child = OpenCell{};
     child->vertices.push_back(start);
-    const auto& first_list = cell.edges[begin].crossings;
-    child->edges.push_back({cell.edges[begin].line, {first_list.begin() + skip, first_list.end()}});
+    OpenCell::Edge first_part = cell.edges[begin];
+    first_part.crossings.erase(first_part.crossings.begin(), first_part.crossings.begin() + skip);
+    child->edges.push_back(std::move(first_part));
     for (int k = (begin + 1) % n; k != end; k = (k + 1) % n) {
       child->vertices.push_back(cell.vertices[k]);
       child->edges.push_back(cell.edges[k]);
     }
-    const auto& last_list = cell.edges[end].crossings;
+    OpenCell::Edge last_part = cell.edges[end];
+    last_part.crossings.resize(keep);
     child->vertices.push_back(cell.vertices[end]);
-    child->edges.push_back({cell.edges[end].line, {last_list.begin(), last_list.begin() + keep}});
+    child->edges.push_back(std::move(last_part));
     child->vertices.push_back(stop);
     OpenCell::Edge edge;
     edge.line = id;
+    edge.positive = child == positive;
     for (std::size_t i = 0; i < cut.roots.size(); ++i)
       edge.crossings.push_back(first + static_cast<int>(i));
-    const int axis = parameter_axis(cut.line);
-    if (!(stop[axis].hi < start[axis].lo))
+    if (!parameter_grows(cut.line, edge.positive))
       std::reverse(edge.crossings.begin(), edge.crossings.end());
     child->edges.push_back(std::move(edge));
     child->depth = cell.depth + 1;

@@ -18,6 +18,7 @@ namespace encase {
 struct OpenCell {
   struct Edge {
     int line = -1;
+    bool positive = false;       ///< the cell is on the line's positive side
     std::vector<int> crossings;  ///< line crossings on the edge, counter-clockwise
   };
   std::vector<Edge> edges;
@@ -104,8 +105,8 @@ class Partition {
   /// A measure of the cells still to come: branches that no crossing ties together, at least 1.
   double estimate(const std::vector<int>& counts, const std::vector<int>& crossings) const;
 
-  /// Whether a critical region lies in the interior of the cell.
-  bool inside(const CriticalRegion& region, const OpenCell& cell);
+  /// Whether a critical region lies in the interior of the polygon that was opened.
+  bool inside(const CriticalRegion& region);
 
  private:
   bool order_on_line(const Line& line, std::vector<Cut::Root>* roots);
@@ -114,8 +115,14 @@ class Partition {
   const std::vector<FilteredPolynomial<2>>& curves_;
   std::vector<std::array<FilteredPolynomial<2>, 2>> partials_;
   Kernel& kernel_;
+  int side_count_ = 0;
   std::vector<Spot> spots_;  ///< of the first line crossings
 };
+
+/// Whether a line's parameter grows along an edge on it that runs counter-clockwise around a cell
+/// on the line's negative or positive side. Exact: the signs of the doubles are those of the
+/// coefficients.
+bool parameter_grows(const Line& line, bool positive);
 
 /// The midpoint of an enclosure.
 inline Point<2> middle(const std::array<Interval, 2>& at) { return {at[0].mid(), at[1].mid()}; }
