@@ -82,9 +82,11 @@ void locate_crossings(Encasement& encasement, Kernel& kernel) {
         Box<2> box;
         for (int i = 0; i < 2; ++i) {
           // Some room around the common point, so that the box is easily proved to hold it.
-          const Rational width = exact.value().hi[i] - exact.value().lo[i];
-          box.lo[i] = Interval::enclose(Rational(exact.value().lo[i] - 4 * width)).lo;
-          box.hi[i] = Interval::enclose(Rational(exact.value().hi[i] + 4 * width)).hi;
+          const RationalBox& tight = exact.value();
+          const Rational room = 4 * (tight.hi[i] - tight.lo[i]) +
+                                Rational(0x1p-46 * std::fabs(nearest_double(tight.lo[i])));
+          box.lo[i] = Interval::enclose(Rational(tight.lo[i] - room)).lo;
+          box.hi[i] = Interval::enclose(Rational(tight.hi[i] + room)).hi;
         }
         where = side(line, box, kernel);
         if (where && crossing.box.contains(box)) {

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "2d/partition.hpp"
+
+#include <gtest/gtest.h>
+
+#include "2d/locate.hpp"
+#include "encase/verify.hpp"
+#include "written.hpp"
+
+namespace encase {
+namespace {
+
+Encasement encased(const std::vector<NamedCurve>& curves, const Region& region) {
+  auto result = encase::encase(curves, region);
+  EXPECT_TRUE(result.ok());
+  return std::move(result).value();
+}
+
+TEST(Partition, FindsLoopsFarFromTheOrigin) {
+  const Rational far("10000000000");
+  const auto x = Polynomial<2>::variable(0), y = Polynomial<2>::variable(1);
+  const auto shift = Polynomial<2>::constant(far + Rational(1, 2));
+  const Polynomial<2> circle =
+      (x - shift).power(2) + (y - shift).power(2) - Polynomial<2>::constant(Rational(1, 100));
+  const Encasement e =
+      encased({{"circle", circle}}, make_region(far, far + 1, far, far + 1).value());
+  EXPECT_EQ(e.outcome, Outcome::Certified);
+  EXPECT_GE(e.cells.size(), 2u);  // the loop is cut
+  EXPECT_FALSE(e.line_crossings.empty());
+  const Verification v = verify(e);
+  EXPECT_TRUE(v.ok()) << (v.objections.empty() ? "" : v.objections.front());
+}
+
+TEST(Partition, ParameterGrowsCounterClockwiseAroundASquare) {
+  const Region square = make_region(-1, 1, -1, 1).value();
+  for (int k = 0; k < 4; ++k) {
+    const Line side = square.side(k);
+    const int axis = parameter_axis(side);
+    const auto &from = square.corners[k], &to = square.corners[(k + 1) % 4];
+    EXPECT_EQ(parameter_grows(side, false), from[axis] < to[axis]) << k;
+    EXPECT_NE(parameter_grows(side, true), parameter_grows(side, false)) << k;
+  }
+}
+
+TEST(Partition, DoesNotOpenWhereACurvePassesThroughACorner) {
+  Kernel kernel;
+  std::vector<FilteredPolynomial<2>> curves;
+  curves.emplace_back(Polynomial<2>::variable(0) - Polynomial<2>::variable(1));
+  const Region square = make_region(-1, 1, -1, 1).value();
+  std::vector<Line> sides;
+  for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
+  Partition partition(curves, kernel);
+  EXPECT_FALSE(partition.open(sides).has_value());
+  // A slightly larger polygon moves the corners off the curve, and contains the square.
+  const auto larger = enlarged(square, 1);
+  ASSERT_TRUE(larger.has_value());
+  sides.clear();
+  for (int k = 0; k < 4; ++k) sides.push_back(larger->side(k));
+  for (const auto& corner : square.corners)
+    for (const Line& side_line : sides) EXPECT_EQ(side(side_line, corner, kernel), Sign::Negative);
+  const auto cell = partition.open(sides);
+  ASSERT_TRUE(cell.has_value());
+  EXPECT_EQ(partition.word(*cell).size(), 2u);
+}
+
+TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
+  Kernel kernel;
+  std::vector<FilteredPolynomial<2>> curves;
+  curves.emplace_back(Polynomial<2>::variable(0) - Polynomial<2>::constant(Rational(1, 3)));
+  const Region square = make_region(-1, 1, -1, 1).value();
+  std::vector<Line> sides;
+  for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
+  Partition partition(curves, kernel);
+  const auto cell = partition.open(sides);
+  ASSERT_TRUE(cell.has_value());
+  const auto line = [](double a, double b, double c) {
+    Line l;
+    l.normal = {a, b};
+    l.offset = c;
+    return l;
+  };
+  EXPECT_FALSE(partition.try_line(*cell, line(1, 0, -2), HUGE_VAL));  // misses
+  EXPECT_FALSE(partition.try_line(*cell, line(1, -1, 0), HUGE_VAL));  // through corners
+  EXPECT_FALSE(partition.try_line(*cell, line(3, 0, -1), 0.0));       // not good enough
+  const auto cut = partition.try_line(*cell, line(0, 1, -0.25), HUGE_VAL);
+  ASSERT_TRUE(cut.has_value());
+  EXPECT_EQ(cut->roots.size(), 1u);
+  OpenCell below, above;
+  ASSERT_TRUE(partition.apply(*cell, *cut, &below, &above));
+  EXPECT_EQ(partition.word(below).size(), 2u);
+  EXPECT_EQ(partition.word(above).size(), 2u);
+  EXPECT_EQ(partition.history.size(), 1u);
+}
+
+}  // namespace
+}  // namespace encase
