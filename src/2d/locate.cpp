@@ -79,12 +79,16 @@ void locate_crossings(Encasement& encasement, Kernel& kernel) {
       for (int bits = 64; !where && bits <= (1 << 20); bits *= 2) {
         const auto exact = refine(encasement, static_cast<int>(id), bits);
         if (!exact) break;
+        // Some room around the common point, the same in both coordinates, so that the box is
+        // easily proved to hold it.
+        const RationalBox& tight = exact.value();
+        Rational room = 0;
+        for (int i = 0; i < 2; ++i)
+          room =
+              std::max(room, Rational(4 * (tight.hi[i] - tight.lo[i]) +
+                                      Rational(0x1p-46 * std::fabs(nearest_double(tight.lo[i])))));
         Box<2> box;
         for (int i = 0; i < 2; ++i) {
-          // Some room around the common point, so that the box is easily proved to hold it.
-          const RationalBox& tight = exact.value();
-          const Rational room = 4 * (tight.hi[i] - tight.lo[i]) +
-                                Rational(0x1p-46 * std::fabs(nearest_double(tight.lo[i])));
           box.lo[i] = Interval::enclose(Rational(tight.lo[i] - room)).lo;
           box.hi[i] = Interval::enclose(Rational(tight.hi[i] + room)).hi;
         }
