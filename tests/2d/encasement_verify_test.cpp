@@ -36,7 +36,7 @@ void expect_verified(const Encasement& e) {
   EXPECT_TRUE(verification.ok()) << text(verification);
 }
 
-class RandomPair : public testing::TestWithParam<std::tuple<int, int>> {
+class VerifiedPair : public testing::TestWithParam<std::tuple<int, int>> {
  protected:
   int degree() const { return std::get<0>(GetParam()); }
   int seed() const { return std::get<1>(GetParam()); }
@@ -45,19 +45,19 @@ class RandomPair : public testing::TestWithParam<std::tuple<int, int>> {
   }
 };
 
-TEST_P(RandomPair, IsVerifiedInASquare) {
+TEST_P(VerifiedPair, IsVerifiedInASquare) {
   const Encasement e = encase(curves(), square(1)).value();
   EXPECT_EQ(e.outcome, Outcome::Certified);
   expect_verified(e);
 }
 
-TEST_P(RandomPair, IsVerifiedInASmallSquare) {
+TEST_P(VerifiedPair, IsVerifiedInASmallSquare) {
   const Encasement e = encase(curves(), square(Rational(1, 10))).value();
   EXPECT_EQ(e.outcome, Outcome::Certified);
   expect_verified(e);
 }
 
-TEST_P(RandomPair, IsVerifiedInATriangle) {
+TEST_P(VerifiedPair, IsVerifiedInATriangle) {
   const Region region = make_region({{Rational(-1), Rational(-9, 10)},
                                      {Rational(8, 9), Rational(-2, 3)},
                                      {Rational(1, 7), Rational(1)}})
@@ -67,7 +67,7 @@ TEST_P(RandomPair, IsVerifiedInATriangle) {
   expect_verified(e);
 }
 
-TEST_P(RandomPair, IsVerifiedInRelaxedCells) {
+TEST_P(VerifiedPair, IsVerifiedInRelaxedCells) {
   EncaseOptions options;
   options.relaxed = true;
   const Encasement e = encase(curves(RandomOptions::Kind::Dense), square(1), options).value();
@@ -75,7 +75,7 @@ TEST_P(RandomPair, IsVerifiedInRelaxedCells) {
   expect_verified(e);
 }
 
-TEST_P(RandomPair, IsVerifiedWhereTheBudgetRanOut) {
+TEST_P(VerifiedPair, IsVerifiedWhereTheBudgetRanOut) {
   for (const int cells : {1, 2, 5}) {
     EncaseOptions options;
     options.max_cells = cells;
@@ -83,7 +83,7 @@ TEST_P(RandomPair, IsVerifiedWhereTheBudgetRanOut) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Verify, RandomPair,
+INSTANTIATE_TEST_SUITE_P(Verify, VerifiedPair,
                          testing::Combine(testing::Values(1, 2, 3, 4, 5, 6, 8, 10),
                                           testing::Values(1, 2, 3)));
 
