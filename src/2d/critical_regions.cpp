@@ -39,15 +39,20 @@ std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
 
 CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, const Box<2>& box,
                                  const std::vector<Line>& half_planes,
-                                 const SubdivisionLimits& limits, Kernel& kernel) {
+                                 const SubdivisionLimits& asked, Kernel& kernel) {
   CriticalRegions result;
+  // Where two branches stay close together, what tells them apart is small beside f.
+  SubdivisionLimits limits = asked;
+  limits.sharp_below = std::max(asked.sharp_below, 0x1p-9);
   result.root_box = subdivision_root(box);
   // Small regions are cut by fewer lines but reached by more rays, and most saddles drop out on the
   // way; a region is not split below this width once f has a sign on it.
   const double fine = result.root_box.largest_width() * 0x1p-6;
   constexpr int kRegion = 0;
   const auto visit = [&](const std::array<Bernstein<2>, 1>& nets, const Box<2>& leaf) {
-    if (no_relevant_critical_point(nets[0])) {
+    // Boxes well below the usual size lie where branches stay close together.
+    const bool small = leaf.largest_width() <= 0x1p-3 * fine;
+    if (no_relevant_critical_point(nets[0], small ? Effort::Thorough : Effort::Quick)) {
       ++kernel.decisions.by_double;
       return cover::kExcluded;
     }

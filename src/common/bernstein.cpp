@@ -177,6 +177,30 @@ void elevate(const Bernstein<K>& net, int axis, Bernstein<K>* out) {
 }
 
 template <int K>
+void multiply_by_coordinate(const Bernstein<K>& net, int axis, Bernstein<K>* out) {
+  const Stride s = stride_of<K>(net.degree, axis);
+  const int n = s.count - 1;
+  out->degree = net.degree;
+  out->degree[axis] = n + 1;
+  out->b.resize(static_cast<std::size_t>(s.outer) * (n + 2) * s.inner);
+  for (int o = 0; o < s.outer; ++o) {
+    const double* from = net.b.data() + static_cast<std::size_t>(o) * s.count * s.inner;
+    double* to = out->b.data() + static_cast<std::size_t>(o) * (n + 2) * s.inner;
+    for (int j = 0; j <= n + 1; ++j) {
+      // The coordinate itself has the coefficients -1 and 1.
+      const double w = static_cast<double>(j) / (n + 1);
+      for (int i = 0; i < s.inner; ++i) {
+        const double below = j > 0 ? from[(j - 1) * s.inner + i] : 0.0;
+        const double above = j <= n ? from[j * s.inner + i] : 0.0;
+        to[j * s.inner + i] = w * below - (1 - w) * above;
+      }
+    }
+  }
+  // The weights' absolute values add up to one, as in `elevate`.
+  out->radius = (net.radius + 6 * kUnit * largest(net.b) + kTiny) * kUp;
+}
+
+template <int K>
 void combine(double alpha, const Bernstein<K>& f, double beta, const Bernstein<K>& g,
              Bernstein<K>* out) {
   out->degree = f.degree;
@@ -207,6 +231,7 @@ double variation(const Bernstein<K>& net, int axis) {
   template void halve(const Bernstein<K>&, int, Bernstein<K>*, Bernstein<K>*);                    \
   template void differentiate(const Bernstein<K>&, int, Bernstein<K>*);                           \
   template void elevate(const Bernstein<K>&, int, Bernstein<K>*);                                 \
+  template void multiply_by_coordinate(const Bernstein<K>&, int, Bernstein<K>*);                  \
   template void combine(double, const Bernstein<K>&, double, const Bernstein<K>&, Bernstein<K>*); \
   template double variation(const Bernstein<K>&, int);
 ENCASE_INSTANTIATE(1)

@@ -47,6 +47,10 @@ void differentiate(const Bernstein<K>& net, int axis, Bernstein<K>* out);
 template <int K>
 void elevate(const Bernstein<K>& net, int axis, Bernstein<K>* out);
 
+/// s_axis times the polynomial; its degree in s_axis grows by one.
+template <int K>
+void multiply_by_coordinate(const Bernstein<K>& net, int axis, Bernstein<K>* out);
+
 /// The largest absolute value of a coefficient.
 template <int K>
 double largest_coefficient(const Bernstein<K>& net);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/box_tests.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 
@@ -188,7 +190,51 @@ std::optional<Contraction<D>> contraction(const SystemNets<D>& nets, double qual
   return std::nullopt;
 }
 
-bool no_relevant_critical_point(const Bernstein<2>& net) {
+namespace {
+
+/// Whether V . grad f keeps a sign on the cube for the affine vector field V that brings it closest
+/// to a constant: where f has a long narrow ridge, V follows the ridge, and what is left is the
+/// slow change of f along it. Any V proves the claim; this one solves a least squares problem.
+bool flows(const Bernstein<2>& net) {
+  // The fields (1,0), (s,0), (t,0), (0,1), (0,s), (0,t) applied to f, in equal degrees.
+  const int n = std::max(net.degree[0], net.degree[1]);
+  std::array<Bernstein<2>, 6> parts;
+  Bernstein<2> partial, raised;
+  for (int axis = 0; axis < 2; ++axis) {
+    differentiate(net, axis, &partial);
+    for (int factor = 0; factor < 3; ++factor) {
+      Bernstein<2>& part = parts[3 * axis + factor];
+      if (factor == 0)
+        part = partial;
+      else
+        multiply_by_coordinate(partial, factor - 1, &part);
+      for (int i = 0; i < 2; ++i)
+        while (part.degree[i] < n + 1) {
+          elevate(part, i, &raised);
+          part = raised;
+        }
+    }
+  }
+  const Eigen::Index rows = static_cast<Eigen::Index>(parts[0].b.size());
+  Eigen::MatrixXd matrix(rows, 6);
+  for (int k = 0; k < 6; ++k)
+    matrix.col(k) = Eigen::Map<const Eigen::VectorXd>(parts[k].b.data(), rows);
+  if (!matrix.allFinite()) return false;
+  const Eigen::VectorXd v = matrix.colPivHouseholderQr().solve(Eigen::VectorXd::Ones(rows));
+  const double size = v.cwiseAbs().maxCoeff();
+  if (!(size > 0) || !std::isfinite(size)) return false;
+  Bernstein<2> flow, sum;
+  combine(v[0] / size, parts[0], v[1] / size, parts[1], &flow);
+  for (int k = 2; k < 6; ++k) {
+    combine(1.0, flow, v[k] / size, parts[k], &sum);
+    std::swap(flow, sum);
+  }
+  return sign_on_cube(flow).has_value();
+}
+
+}  // namespace
+
+bool no_relevant_critical_point(const Bernstein<2>& net, Effort effort) {
   if (net.degree[0] == 0 || net.degree[1] == 0) return sign_on_cube(net).has_value();
   thread_local SystemNets<2> gradient;
   thread_local Bernstein<2> partial;
@@ -200,7 +246,7 @@ bool no_relevant_critical_point(const Bernstein<2>& net) {
   elevate(partial, 1, &gradient[1]);
   if (excluded<2>(gradient)) return true;
   const auto sign = sign_on_cube(net);
-  if (!sign) return false;
+  if (!sign) return effort == Effort::Thorough && flows(net);
   // f is not zero here. At a local maximum of |f| the Hessian of f times sign(f) is negative
   // semi-definite: sign(f) f_xx <= 0, sign(f) f_yy <= 0 and det Hess f >= 0.
   thread_local Bernstein<2> second;
@@ -218,8 +264,9 @@ bool no_relevant_critical_point(const Bernstein<2>& net) {
       std::max(std::max(xx.lo * yy.lo, xx.lo * yy.hi), std::max(xx.hi * yy.lo, xx.hi * yy.hi));
   const double mixed = xy.lo > 0 ? xy.lo : xy.hi < 0 ? -xy.hi : 0.0;
   const double square = mixed * mixed * (1 - 0x1p-40);
-  return product <= 0 ? square > 0 || product * (1 - 0x1p-40) < -0x1p-900
-                      : product * kUp + 0x1p-900 < square;
+  const bool saddle = product <= 0 ? square > 0 || product * (1 - 0x1p-40) < -0x1p-900
+                                   : product * kUp + 0x1p-900 < square;
+  return saddle || (effort == Effort::Thorough && flows(net));
 }
 
 template <int D>
@@ -312,7 +359,8 @@ bool no_relevant_critical_point(const FilteredPolynomial<2>& f, const Box<2>& bo
         f.expand(box, f.degree(), bits, kernel, &net);
         return net.radius;
       },
-      [&] { return no_relevant_critical_point(net); }, [&] { return coarse(net); });
+      [&] { return no_relevant_critical_point(net, Effort::Thorough); },
+      [&] { return coarse(net); });
 }
 
 #define ENCASE_INSTANTIATE(D)                                                                     \

@@ -39,10 +39,15 @@ struct Contraction {
 template <int D>
 std::optional<Contraction<D>> contraction(const SystemNets<D>& nets, double quality = 1.0);
 
+/// How hard a box test tries.
+enum class Effort { Quick, Thorough };
+
 /// No point of the box is both a zero of f and of its gradient, and none is a local maximum of |f|:
 /// a partial derivative or a combination of both keeps a sign, or f keeps a sign and f f_xx > 0,
-/// f f_yy > 0 or det Hess f < 0 holds on the box.
-bool no_relevant_critical_point(const Bernstein<2>& net);
+/// f f_yy > 0 or det Hess f < 0 holds on the box. With effort: also V . grad f keeps a sign for
+/// some affine vector field V, as along the ridge between two branches that stay close for a long
+/// way.
+bool no_relevant_critical_point(const Bernstein<2>& net, Effort effort);
 
 // On boxes. Each climbs the ladder: doubles, then MPFR where the rounding error alone stands in the
 // way of a proof.
@@ -67,7 +72,7 @@ bool at_most_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
 template <int D>
 bool exactly_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel);
 
-/// As on nets.
+/// As on nets, with effort.
 bool no_relevant_critical_point(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel);
 
 }  // namespace encase

@@ -55,7 +55,8 @@ class FilteredPolynomial {
 
   const Polynomial<D>& exact() const { return exact_; }
   int degree() const { return degree_; }
-  /// The power of two (rounded into the range of doubles) by which scaled values are to be multiplied.
+  /// The power of two (rounded into the range of doubles) by which scaled values are to be
+  /// multiplied.
   double scale() const { return std::ldexp(1.0, exponent_); }
 
   /// The Bernstein form on a box whose corner lo goes to (-1, ..., -1) and hi to (1, ..., 1), of

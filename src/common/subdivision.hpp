@@ -91,6 +91,9 @@ struct SubdivisionLimits {
   /// Asked now and then; true ends the subdivision, and what is open stays unresolved.
   std::function<bool()> stop;
   double smallest = 0x1p-40;  ///< boxes are halved down to this part of the root's widths
+  /// Below this part nets are kept sharp to 2^-40 of their size: small boxes are where curves touch
+  /// or nearly touch, and only the last digits tell them apart.
+  double sharp_below = 0x1p-16;
 };
 
 /// The boxes a subdivision visits, breadth first, with the nets of N polynomials on each.
@@ -132,14 +135,14 @@ Subdivision<D> subdivide(const std::array<const FilteredPolynomial<D>*, N>& poly
     }
     return false;
   };
-  // Small boxes are where curves touch or nearly touch, and only the last digits tell them apart.
   const auto sharpen = [&](Item& item) {
     // Nets of one box must share their coordinates, and a fresh net has those of a slightly larger
     // box if the centre is not a double. (Such a box is not halved any more.)
     for (int i = 0; i < D; ++i)
       if (!centered(item.box.lo[i], item.box.hi[i]).exact) return;
     bool small = false;
-    for (int i = 0; i < D; ++i) small = small || item.box.width(i) < 0x1p-16 * root.width(i);
+    for (int i = 0; i < D; ++i)
+      small = small || item.box.width(i) < limits.sharp_below * root.width(i);
     const double tolerated = small ? 0x1p-40 : 0x1p-10;
     for (int i = 0; i < N; ++i) {
       Bernstein<D>& net = item.nets[i];

@@ -181,5 +181,14 @@ TEST(ConnectedComponents, BoxesThatTouchAreJoined) {
             (std::vector<int>{0, 0, 0}));
 }
 
+TEST(CriticalRegions, FollowARidgeBetweenCloseBranches) {
+  // Two arcs as close as 4e-8 along y = x^-4, and no critical point between them: along the field
+  // (-x, 4 y) the derivative is 40 y^10. Boxes as small as the gap would be ten millions.
+  const Found found = find("y^10 - 2*(x^4*y - 1)^2", {{1.1, -4}, {2, 4}});
+  EXPECT_TRUE(found.regions.unresolved.empty());
+  EXPECT_LT(found.regions.boxes, 5000);
+  expect_proved(found);
+}
+
 }  // namespace
 }  // namespace encase
