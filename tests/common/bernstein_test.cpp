@@ -120,6 +120,9 @@ TYPED_TEST(BernsteinOf, OperationsCarryTheRadiusAlong) {
     EXPECT_TRUE(encloses<K>(out, f.derivative(axis)));
     elevate(net, axis, &out);
     EXPECT_TRUE(encloses<K>(out, f));
+    multiply_by_coordinate(net, axis, &out);
+    EXPECT_EQ(out.degree[axis], net.degree[axis] + 1);
+    EXPECT_TRUE(encloses<K>(out, f * Polynomial<K>::variable(axis)));
     halve(net, axis, &out, &other);
     RationalPoint<K> offset, scale;
     scale.fill(1);
