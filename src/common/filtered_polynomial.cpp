@@ -451,17 +451,20 @@ template <int D>
 void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, Kernel& kernel,
                                         Bernstein<1>* net) const requires(D == 2) {
   ++kernel.restrictions;
-  // Sums of absolute values of the terms that make up a coordinate on the chart.
+  // Sums of absolute values of the terms that make up a coordinate on the chart: of m + h s, and of
+  // (from + to) / 2 + (to - from) / 2 (m + h s), where |s| <= 1.
+  const Centered parameter = centered(segment.lo_, segment.hi_);
+  const double extent = (std::fabs(parameter.center) + parameter.half) * (1 + 0x1p-40);
   Point<2> reach;
   if (segment.on_line_) {
     const Line& line = segment.line_;
     const int p = parameter_axis(line), q = 1 - p;
-    reach[p] = std::max(std::fabs(segment.lo_), std::fabs(segment.hi_)) * (1 + 0x1p-40) +
-               (segment.hi_ - segment.lo_);
+    reach[p] = extent;
     reach[q] = reach_across(line, reach[p]);
   } else {
     for (int i = 0; i < 2; ++i)
-      reach[i] = 2 * (std::fabs(segment.from_[i]) + std::fabs(segment.to_[i])) * (1 + 0x1p-40);
+      reach[i] = 0.5 * (std::fabs(segment.from_[i]) + std::fabs(segment.to_[i])) * (1 + extent) *
+                 (1 + 0x1p-40);
   }
   const int n = degree_ + 1;
   // A term x^i y^j: its coefficient, the Taylor shift of its row (3 i + 1), Horner over the rows (a
