@@ -31,6 +31,17 @@ TEST(Partition, FindsLoopsFarFromTheOrigin) {
   EXPECT_TRUE(v.ok()) << (v.objections.empty() ? "" : v.objections.front());
 }
 
+TEST(Partition, LocatesACrossingThatOnlyExactNumbersTellFromASide) {
+  // The curves meet in (-1e-25, 0), outside [0, 1] x [-1, 1] by far less than an ulp of the region.
+  const Encasement e = encased({{"f", written::polynomial<2>("x - y + 1e-25")},
+                                {"g", written::polynomial<2>("x + y + 1e-25")}},
+                               make_region(0, 1, -1, 1).value());
+  ASSERT_EQ(e.crossings.size(), 1u);
+  EXPECT_EQ(e.crossings[0].location, Location::Outside);
+  const Verification v = verify(e);
+  EXPECT_TRUE(v.ok()) << (v.objections.empty() ? "" : v.objections.front());
+}
+
 TEST(Partition, ParameterGrowsCounterClockwiseAroundASquare) {
   const Region square = make_region(-1, 1, -1, 1).value();
   for (int k = 0; k < 4; ++k) {
