@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "2d/critical_regions.hpp"
+#include "2d/encaser.hpp"
+#include "2d/locate.hpp"
+#include "common/components.hpp"
+#include "common/isolate_roots.hpp"
+#include "common/perturb.hpp"
+
+namespace encase {
+namespace {
+
+double cpu_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+std::string decimal(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+}  // namespace
+
+Encaser::Encaser(const std::vector<NamedCurve>& input, const Region& region,
+                 const EncaseOptions& options)
+    : options_(options), start_(cpu_seconds()) {
+  kernel_.start_bits = std::max(options.start_bits, Kernel::kDoubleBits);
+  kernel_.max_bits = std::max(options.max_bits, kernel_.start_bits);
+  result_.input = input;
+  result_.region = region;
+  result_.seed = options.seed;
+  result_.perturbation = options.perturbation;
+}
+
+void Encaser::progress(const char* stage, double done) {
+  if (options_.progress && budget_.empty() && !options_.progress(stage, done))
+    budget_ = "the computation was cancelled";
+}
+
+SubdivisionLimits Encaser::limits(const char* stage) {
+  SubdivisionLimits limits;
+  limits.stop = [this, stage] {
+    progress(stage, -1);
+    return out_of_budget();
+  };
+  return limits;
+}
+
+bool Encaser::out_of_budget() {
+  if (!budget_.empty()) return true;
+  if (static_cast<int>(finished_.size()) >= options_.max_cells)
+    budget_ = "the limit of " + std::to_string(options_.max_cells) + " cells was reached";
+  else if (cpu_seconds() - start_ > options_.max_seconds)
+    budget_ = "the limit of " + decimal(options_.max_seconds) + " CPU seconds was reached";
+  return !budget_.empty();
+}
+
+Status Encaser::check_input() const {
+  const auto bad = [](std::string message) {
+    return Status(Error{Error::Code::BadInput, std::move(message)});
+  };
+  if (result_.region.corners.size() < 3) return bad("the region has fewer than three corners");
+  for (const NamedCurve& curve : result_.input) {
+    if (curve.polynomial.is_zero())
+      return bad("curve '" + curve.name + "' is the zero polynomial: every point lies on it");
+    if (curve.polynomial.is_constant())
+      return bad("curve '" + curve.name + "' is a constant: no point lies on it");
+    if (curve.polynomial.degree() > kMaxDegree)
+      return bad("curve '" + curve.name + "' has degree " +
+                 std::to_string(curve.polynomial.degree()) + ", above the limit of " +
+                 std::to_string(kMaxDegree));
+  }
+  if (!(options_.perturbation >= 0) || !std::isfinite(options_.perturbation))
+    return bad("the perturbation must be a number that is not negative");
+  return std::nullopt;
+}
+
+void Encaser::separate_components() {
+  if (options_.perturbation > 0) {
+    std::mt19937_64 generator(options_.seed);
+    for (NamedCurve& curve : result_.input)
+      curve.polynomial = perturb(curve.polynomial, options_.perturbation, generator);
+  }
+  std::vector<Polynomial<2>> inputs;
+  for (const NamedCurve& curve : result_.input) inputs.push_back(curve.polynomial);
+  std::vector<int> used(inputs.size(), 0);
+  for (BaseElement<2>& element : coprime_square_free_base(inputs)) {
+    Curve curve;
+    Unresolved note;
+    note.proved = true;
+    for (const auto& source : element.sources) {
+      const NamedCurve& from = result_.input[source.index];
+      curve.sources.push_back(source.index);
+      curve.name += (curve.name.empty() ? "" : " & ") + from.name;
+      note.curves.push_back(source.index);
+      if (source.multiplicity > 1) {
+        Unresolved repeated = note;
+        repeated.kind = Unresolved::Kind::RepeatedComponent;
+        repeated.curves = {source.index};
+        repeated.reason = "curve '" + from.name + "' contains the component " +
+                          element.polynomial.to_string() + " = 0 " +
+                          std::to_string(source.multiplicity) + " times; it is encased once";
+        result_.degenerate.push_back(std::move(repeated));
+      }
+    }
+    if (element.sources.size() > 1) {
+      note.kind = Unresolved::Kind::SharedComponent;
+      note.reason = "curves '" + curve.name + "' share the component " +
+                    element.polynomial.to_string() + " = 0; it is encased as one curve";
+      result_.degenerate.push_back(std::move(note));
+    } else if (++used[element.sources[0].index] > 1) {
+      curve.name += " (" + std::to_string(used[element.sources[0].index]) + ")";
+    }
+    curve.polynomial = std::move(element.polynomial);
+    polynomials_.emplace_back(curve.polynomial);
+    result_.curves.push_back(std::move(curve));
+  }
+}
+
+void Encaser::use_region(const Region& region) {
+  result_.region_used = region;
+  sides_.clear();
+  for (int k = 0; k < region.side_count(); ++k) sides_.push_back(region.side(k));
+  partition_ = std::make_unique<Partition>(polynomials_, kernel_);
+}
+
+bool Encaser::open_region() {
+  // The region itself, or one of some slightly larger polygons in which every curve meets the sides
+  // in simple points, none of them a corner or shared (design of the boundary: docs/encasement.md).
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    auto used = attempt == 0 ? std::optional(result_.region) : enlarged(result_.region, attempt);
+    if (!used) continue;
+    use_region(*used);
+    if (auto cell = partition_->open(sides_)) {
+      first_cell_ = std::move(*cell);
+      isolate_crossings();
+      // Every crossing box must lie on one side of every side's line.
+      bool clear = true;
+      for (const Crossing& crossing : partition_->crossings)
+        for (const Line& line : sides_)
+          clear = clear && side(line, crossing.box, kernel_).has_value();
+      if (clear) return true;
+    }
+  }
+  return false;
+}
+
+void Encaser::give_up_on_region() {
+  use_region(result_.region);
+  partition_->lines = sides_;
+  isolate_crossings();
+  find_critical_regions();
+  OpenCell cell;
+  const int n = static_cast<int>(partition_->lines.size());
+  for (int k = 0; k < n; ++k) {
+    cell.vertices.push_back(meet(partition_->lines[(k + n - 1) % n], partition_->lines[k]));
+    cell.edges.push_back({k, false, {}});
+  }
+  finished_.push_back({std::move(cell), CellState::Undecided, {}});
+  budget_ = "the curves' crossings with the region's sides could not be told apart";
+  finish_cells();
+}
+
+std::vector<Box<2>> Encaser::clusters_of(const std::vector<Box<2>>& unresolved) const {
+  // Boxes that nearly touch are one place.
+  std::vector<Box<2>> grown = unresolved;
+  for (Box<2>& box : grown) {
+    const double margin = 4 * box.largest_width();
+    for (int i = 0; i < 2; ++i) {
+      box.lo[i] -= margin;
+      box.hi[i] += margin;
+    }
+  }
+  std::vector<Box<2>> clusters;
+  const std::vector<int> component = connected_components(grown);
+  for (std::size_t i = 0; i < unresolved.size(); ++i) {
+    const std::size_t k = component[i];
+    if (k == clusters.size())
+      clusters.push_back(unresolved[i]);
+    else
+      clusters[k] = hull(clusters[k], unresolved[i]);
+  }
+  return clusters;
+}
+
+void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
+                     Unresolved::Kind kind, std::vector<int> curves) {
+  std::string names;
+  for (const int c : curves)
+    names += (names.empty() ? "'" : " and '") + result_.curves[c].name + "'";
+  const SubdivisionLimits limits;
+  for (const Box<2>& box : clusters_of(unresolved)) {
+    Unresolved entry;
+    entry.box = box;
+    entry.has_box = true;
+    entry.curves = curves;
+    // Halved as far as sizes go, as opposed to left over when the number of boxes ran out.
+    bool at_cap = true;
+    for (const Box<2>& leaf : unresolved)
+      if (box.contains(leaf))
+        at_cap = at_cap && (leaf.width(0) <= limits.smallest * root.width(0) ||
+                            leaf.width(1) <= limits.smallest * root.width(1));
+    if (at_cap) {
+      entry.kind = kind;
+      entry.reason = kind == Unresolved::Kind::Contact
+                         ? "curves " + names + " touch, nearly touch or meet at a singular point"
+                         : "curve " + names + " is singular or nearly singular";
+      result_.degenerate.push_back(std::move(entry));
+    } else {
+      entry.kind = Unresolved::Kind::Budget;
+      entry.reason = (budget_.empty() ? "the limit on boxes was reached" : budget_) +
+                     (kind == Unresolved::Kind::Contact
+                          ? " before curves " + names + " were told apart"
+                          : " before the critical points of curve " + names + " were settled");
+      result_.undecided.push_back(std::move(entry));
+    }
+  }
+}
+
+void Encaser::isolate_crossings() {
+  result_.crossing_covers.clear();
+  result_.degenerate.erase(std::remove_if(result_.degenerate.begin(), result_.degenerate.end(),
+                                          [](const Unresolved& u) { return u.has_box; }),
+                           result_.degenerate.end());
+  result_.undecided.clear();
+  const Box<2> box = result_.region_used.bounding_box();
+  const int n = static_cast<int>(polynomials_.size());
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j) {
+      RootIsolation<2> roots = isolate_roots<2>({&polynomials_[i], &polynomials_[j]}, box, sides_,
+                                                limits("isolating crossings"), kernel_);
+      result_.statistics.root_boxes += roots.boxes;
+      const int first = static_cast<int>(partition_->crossings.size());
+      for (const Box<2>& root : roots.roots) {
+        Crossing crossing;
+        crossing.curves = {i, j};
+        crossing.box = root;
+        crossing.point = root.center();
+        partition_->crossings.push_back(crossing);
+      }
+      for (int& token : roots.tokens)
+        if (token >= 0) token += first;
+      report(roots.unresolved, roots.root_box, Unresolved::Kind::Contact, {i, j});
+      result_.crossing_covers.push_back({{i, j}, roots.root_box, std::move(roots.tokens)});
+    }
+  // Boxes of different pairs that meet: three curves through one point, as far as can be told.
+  std::vector<Box<2>> boxes;
+  for (const Crossing& crossing : partition_->crossings) boxes.push_back(crossing.box);
+  const std::vector<int> component = connected_components(boxes);
+  std::vector<std::vector<int>> groups(boxes.size());
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    groups[component[k]].push_back(static_cast<int>(k));
+  for (const auto& group : groups) {
+    if (group.size() < 2) continue;
+    Unresolved entry;
+    entry.kind = Unresolved::Kind::Concurrency;
+    entry.has_box = true;
+    entry.box = boxes[group[0]];
+    for (const int k : group) {
+      entry.box = hull(entry.box, boxes[k]);
+      for (const int c : partition_->crossings[k].curves)
+        if (std::find(entry.curves.begin(), entry.curves.end(), c) == entry.curves.end())
+          entry.curves.push_back(c);
+    }
+    std::sort(entry.curves.begin(), entry.curves.end());
+    entry.reason = "three or more curves meet or nearly meet in a point";
+    result_.degenerate.push_back(std::move(entry));
+  }
+}
+
+void Encaser::find_critical_regions() {
+  const Box<2> box = result_.region_used.bounding_box();
+  for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
+    CriticalRegions found = critical_regions(polynomials_[c], c, box, sides_,
+                                             limits("finding critical regions"), kernel_);
+    result_.statistics.critical_boxes += found.boxes;
+    const int first = static_cast<int>(partition_->critical_regions.size());
+    for (int& token : found.tokens)
+      if (token >= 0) token += first;
+    for (CriticalRegion& region : found.regions)
+      partition_->critical_regions.push_back(std::move(region));
+    report(found.unresolved, found.root_box, Unresolved::Kind::SingularPoint, {c});
+    result_.critical_covers.push_back({c, found.root_box, std::move(found.tokens)});
+  }
+}
+
+void Encaser::collect_zones() {
+  // Boxes that touch make one zone.
+  std::vector<Box<2>> boxes;
+  for (const auto* list : {&result_.degenerate, &result_.undecided})
+    for (const Unresolved& entry : *list)
+      if (entry.has_box) boxes.push_back(entry.box);
+  for (std::size_t before = 0; before != boxes.size();) {
+    before = boxes.size();
+    boxes = clusters_of(boxes);
+  }
+  const double diameter = result_.region_used.bounding_box().largest_width();
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const Box<2>& box = boxes[k];
+    // Wide enough to be cheap to surround, but clear of every other feature.
+    double margin = 0x1p-6 * diameter;
+    const auto keep_off = [&](const Box<2>& other) {
+      double gap = 0;
+      for (int i = 0; i < 2; ++i)
+        gap = std::max({gap, other.lo[i] - box.hi[i], box.lo[i] - other.hi[i]});
+      if (gap > 0) margin = std::min(margin, 0.3 * gap);
+    };
+    for (std::size_t j = 0; j < boxes.size(); ++j)
+      if (j != k) keep_off(boxes[j]);
+    for (const Crossing& crossing : partition_->crossings) keep_off(crossing.box);
+    margin = std::max(margin, 2 * box.largest_width());
+    Zone zone{box, box};
+    for (int i = 0; i < 2; ++i) {
+      zone.clearance.lo[i] -= margin;
+      zone.clearance.hi[i] += 1.07 * margin;
+    }
+    partition_->zones.push_back(zone);
+  }
+}
+
+void Encaser::decide_outcome() {
+  locate_crossings(result_, kernel_);
+  result_.outcome = !result_.undecided.empty()    ? Outcome::Undecided
+                    : !result_.degenerate.empty() ? Outcome::Degenerate
+                                                  : Outcome::Certified;
+  for (const Cell& cell : result_.cells)
+    if (cell.state == CellState::Undecided) result_.outcome = Outcome::Undecided;
+  Statistics& s = result_.statistics;
+  s.candidate_lines = partition_->lines_tried;
+  s.decisions = kernel_.decisions;
+  s.restrictions = kernel_.restrictions;
+  s.expansions = kernel_.expansions;
+  s.mpfr_expansions = kernel_.mpfr_expansions;
+  result_.seconds = cpu_seconds() - start_;
+}
+
+}  // namespace encase

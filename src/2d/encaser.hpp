@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "2d/partition.hpp"
+#include "common/subdivision.hpp"
+#include "encase/encasement.hpp"
+
+namespace encase {
+
+/// One run of `encase`; the members are called in the order of their numbers.
+class Encaser {
+ public:
+  Encaser(const std::vector<NamedCurve>& input, const Region& region, const EncaseOptions& options);
+
+  Status check_input() const;    // 1. sanity
+  void separate_components();    // 1. shared and repeated components
+  bool open_region();            // 2. a generic polygon
+  void isolate_crossings();      // 2. crossings first
+  void find_critical_regions();  // 3. critical regions
+  void give_up_on_region();      //    or one undecided cell
+  void collect_zones();          //    what resists, kept apart
+  void split_cells();            // 4. split until every cell is simple; loops last
+  void finish_cells();           // 5. the cells and their certificates
+  void decide_outcome();
+  Encasement take_result() { return std::move(result_); }
+
+ private:
+  enum class Shape { Simple, Relaxable, Complex };
+  Shape shape_of(const OpenCell& cell) const;
+  std::optional<Cut> next_cut(const OpenCell& cell, CellState* settled);
+  bool out_of_budget();
+  /// Tells the caller's progress callback; a refusal uses the budget up.
+  void progress(const char* stage, double done);
+  SubdivisionLimits limits(const char* stage);
+  void use_region(const Region& region);
+  std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
+  void report(const std::vector<Box<2>>& unresolved, const Box<2>& root, Unresolved::Kind kind,
+              std::vector<int> curves);
+  Cell finish(const OpenCell& open, CellState state, int id);
+
+  struct Finished {
+    OpenCell cell;
+    CellState state;
+    std::vector<LoopCertificate> certificates;
+  };
+
+  const EncaseOptions& options_;
+  double start_;
+  Kernel kernel_;
+  Encasement result_;
+  std::vector<FilteredPolynomial<2>> polynomials_;
+  std::vector<Line> sides_;  // of region_used
+  std::unique_ptr<Partition> partition_;
+  OpenCell first_cell_;
+  std::vector<Finished> finished_;
+  std::vector<LoopCertificate> certificates_;  // of the cell at hand
+  std::string budget_;                         // the sentence that tells which ran out
+};
+
+}  // namespace encase
