@@ -153,8 +153,12 @@ void differentiate(const Bernstein<K>& net, int axis, Bernstein<K>* out) {
   out->radius = 1.0000001 * (2 * factor * net.radius + 3 * kUnit * m) + kTiny;
 }
 
+namespace {
+
+/// The product with the linear polynomial whose coefficients along one axis are (first, 1), where
+/// first is 1 (the constant one: a raised degree) or -1 (the coordinate).
 template <int K>
-void elevate(const Bernstein<K>& net, int axis, Bernstein<K>* out) {
+void multiply_by_linear(const Bernstein<K>& net, int axis, double first, Bernstein<K>* out) {
   const Stride s = stride_of<K>(net.degree, axis);
   const int n = s.count - 1;
   out->degree = net.degree;
@@ -164,40 +168,29 @@ void elevate(const Bernstein<K>& net, int axis, Bernstein<K>* out) {
     const double* from = net.b.data() + static_cast<std::size_t>(o) * s.count * s.inner;
     double* to = out->b.data() + static_cast<std::size_t>(o) * (n + 2) * s.inner;
     for (int j = 0; j <= n + 1; ++j) {
-      const double w = static_cast<double>(j) / (n + 1);
+      const double w = static_cast<double>(j) / (n + 1), rest = first * (1 - w);
       for (int i = 0; i < s.inner; ++i) {
         const double below = j > 0 ? from[(j - 1) * s.inner + i] : 0.0;
         const double above = j <= n ? from[j * s.inner + i] : 0.0;
-        to[j * s.inner + i] = w * below + (1 - w) * above;
+        to[j * s.inner + i] = w * below + rest * above;
       }
     }
   }
-  // A convex combination: the radius stays; weights, products and the sum round.
+  // The weights' absolute values add up to one: the radius stays; weights, products and the sum
+  // round.
   out->radius = (net.radius + 6 * kUnit * largest(net.b) + kTiny) * kUp;
+}
+
+}  // namespace
+
+template <int K>
+void elevate(const Bernstein<K>& net, int axis, Bernstein<K>* out) {
+  multiply_by_linear<K>(net, axis, 1.0, out);
 }
 
 template <int K>
 void multiply_by_coordinate(const Bernstein<K>& net, int axis, Bernstein<K>* out) {
-  const Stride s = stride_of<K>(net.degree, axis);
-  const int n = s.count - 1;
-  out->degree = net.degree;
-  out->degree[axis] = n + 1;
-  out->b.resize(static_cast<std::size_t>(s.outer) * (n + 2) * s.inner);
-  for (int o = 0; o < s.outer; ++o) {
-    const double* from = net.b.data() + static_cast<std::size_t>(o) * s.count * s.inner;
-    double* to = out->b.data() + static_cast<std::size_t>(o) * (n + 2) * s.inner;
-    for (int j = 0; j <= n + 1; ++j) {
-      // The coordinate itself has the coefficients -1 and 1.
-      const double w = static_cast<double>(j) / (n + 1);
-      for (int i = 0; i < s.inner; ++i) {
-        const double below = j > 0 ? from[(j - 1) * s.inner + i] : 0.0;
-        const double above = j <= n ? from[j * s.inner + i] : 0.0;
-        to[j * s.inner + i] = w * below - (1 - w) * above;
-      }
-    }
-  }
-  // The weights' absolute values add up to one, as in `elevate`.
-  out->radius = (net.radius + 6 * kUnit * largest(net.b) + kTiny) * kUp;
+  multiply_by_linear<K>(net, axis, -1.0, out);
 }
 
 template <int K>

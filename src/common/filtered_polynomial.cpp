@@ -303,6 +303,19 @@ Number FilteredPolynomial<D>::sum(const std::vector<Number>& coefficients,
 }
 
 template <int D>
+template <class Run>
+void FilteredPolynomial<D>::with_coefficients(int bits, Kernel& kernel, Run run) const {
+  if (Kernel::is_mpfr(bits)) {
+    ++kernel.mpfr_expansions;
+    run(coefficients<Mpfr>(bits));
+  } else if (bits == Kernel::kExtendedBits) {
+    run(coefficients<long double>(bits));
+  } else {
+    run(coefficients<double>(bits));
+  }
+}
+
+template <int D>
 void FilteredPolynomial<D>::expand(const Box<D>& box, int net_degree, int bits, Kernel& kernel,
                                    Bernstein<D>* net) const {
   ++kernel.expansions;
@@ -337,14 +350,7 @@ void FilteredPolynomial<D>::expand(const Box<D>& box, int net_degree, int bits, 
     const std::vector<double> taylor = round_all(c, &error);
     to_bernstein<D>(taylor, degree_, error, net_degree, net);
   };
-  if (Kernel::is_mpfr(bits)) {
-    ++kernel.mpfr_expansions;
-    run(coefficients<Mpfr>(bits));
-  } else if (bits == Kernel::kExtendedBits) {
-    run(coefficients<long double>(bits));
-  } else {
-    run(coefficients<double>(bits));
-  }
+  with_coefficients(bits, kernel, run);
 }
 
 SegmentChart SegmentChart::of_line(const Line& line, double lo, double hi) {
@@ -500,14 +506,7 @@ void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, K
     const std::vector<double> taylor = round_all(total, &error);
     to_bernstein<1>(taylor, degree_, error, degree_, net);
   };
-  if (Kernel::is_mpfr(bits)) {
-    ++kernel.mpfr_expansions;
-    run(coefficients<Mpfr>(bits));
-  } else if (bits == Kernel::kExtendedBits) {
-    run(coefficients<long double>(bits));
-  } else {
-    run(coefficients<double>(bits));
-  }
+  with_coefficients(bits, kernel, run);
 }
 
 template <int D>

@@ -95,6 +95,9 @@ class FilteredPolynomial {
   struct Cache;
   template <class Number>
   const std::vector<Number>& coefficients(int bits) const;
+  /// run(coefficients) in the numbers that `bits` stands for.
+  template <class Run>
+  void with_coefficients(int bits, Kernel& kernel, Run run) const;
   template <class Number, class Coordinate>
   Number sum(const std::vector<Number>& coefficients, const std::array<Coordinate, D>& point,
              int bits) const;
