@@ -52,18 +52,13 @@ CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, cons
   const auto visit = [&](const std::array<Bernstein<2>, 1>& nets, const Box<2>& leaf) {
     // Boxes well below the usual size lie where branches stay close together.
     const bool small = leaf.largest_width() <= 0x1p-3 * fine;
-    if (no_relevant_critical_point(nets[0], small ? Effort::Thorough : Effort::Quick)) {
-      ++kernel.decisions.by_double;
+    if (no_relevant_critical_point(nets[0], small ? Effort::Thorough : Effort::Quick))
       return cover::kExcluded;
-    }
     // Across the axis along which f changes more, weighted by the width.
     const double x = variation(nets[0], 0) * leaf.width(0),
                  y = variation(nets[0], 1) * leaf.width(1);
     const int axis = x >= y ? 0 : 1;
-    if (leaf.width(axis) <= fine && sign_on_cube(nets[0])) {
-      ++kernel.decisions.by_double;
-      return kRegion;
-    }
+    if (leaf.width(axis) <= fine && sign_on_cube(nets[0])) return kRegion;
     return cover::kSplitX - axis;
   };
   const Subdivision<2> tree =

@@ -201,10 +201,7 @@ RootIsolation<D> isolate_roots(const System<D>& system, const Box<D>& box,
   };
 
   const auto visit = [&](const SystemNets<D>& nets, const Box<D>& leaf) {
-    if (excluded<D>(nets)) {
-      ++kernel.decisions.by_double;
-      return cover::kExcluded;
-    }
+    if (excluded<D>(nets)) return cover::kExcluded;
     if (const auto c = contraction<D>(nets, kQuality))
       if (const auto k = root_near(leaf, *c)) return *k;
     int axis = 0;

@@ -195,6 +195,11 @@ Subdivision<D> subdivide(const std::array<const FilteredPolynomial<D>*, N>& poly
         next.push_back(std::move(upper));
       } else {
         tree.settle(item.node, split ? cover::kUnresolved : token);
+        // Counted by the most precise arithmetic that one of its nets came from.
+        if (split || token == cover::kUnresolved)
+          ++kernel.decisions.undecided;
+        else
+          kernel.count(*std::max_element(item.bits.begin(), item.bits.end()));
       }
     }
     pool = std::move(level);
