@@ -74,9 +74,11 @@ CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, cons
     if (token != kRegion) continue;
     const std::size_t k = component[next];
     if (k >= result.regions.size()) {
-      // Touching boxes share points, so f has the same sign on a whole component.
-      const auto sign = sign_on_box(f, boxes[next], kernel);
-      result.regions.push_back({curve, sign.value_or(Sign::Zero), {}});
+      // f was proved to have one sign on the leaf, and touching boxes share points: its exact sign
+      // at any point is that of the whole component.
+      const Point<2> center = boxes[next].center();
+      const Sign sign = f.sign_at({Rational(center[0]), Rational(center[1])}, kernel);
+      result.regions.push_back({curve, sign, {}});
     }
     result.regions[k].boxes.push_back(boxes[next]);
     token = static_cast<int>(k);
