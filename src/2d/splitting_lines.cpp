@@ -258,8 +258,8 @@ void propose_closest_approach(const Partition& partition, const OpenCell& cell,
   }
 }
 
-/// The chord between two crossings of one curve that is longest, bisected at right angles.
-void propose_bisector(const std::vector<BoundaryPoint>& points, Selection& selection) {
+/// The longest chord between two crossings of one curve; a < 0 if there is none.
+Pair longest_chord(const std::vector<BoundaryPoint>& points) {
   Pair longest{-1, -1, -1};
   for (int i = 0; i < static_cast<int>(points.size()); ++i)
     for (int j = i + 1; j < static_cast<int>(points.size()); ++j)
@@ -267,6 +267,12 @@ void propose_bisector(const std::vector<BoundaryPoint>& points, Selection& selec
         const double d = distance(points[i].at, points[j].at);
         if (d > longest.gap) longest = {i, j, d};
       }
+  return longest;
+}
+
+/// The longest chord, bisected at right angles.
+void propose_bisector(const std::vector<BoundaryPoint>& points, Selection& selection) {
+  const Pair longest = longest_chord(points);
   if (longest.a < 0) return;
   const Point<2> a = points[longest.a].at, b = points[longest.b].at;
   for (const double w : {0.5, 0.43, 0.57}) {
@@ -274,6 +280,32 @@ void propose_bisector(const std::vector<BoundaryPoint>& points, Selection& selec
         line_through({a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1])}, minus(b, a)));
     if (selection.best) return;
   }
+}
+
+/// Lines that hug a branch (thesis 3.5): past the point where the bisector of its longest chord
+/// meets the curve, along the curve; and past the chord on the other side, along the chord.
+void propose_refinement(const Partition& partition, const std::vector<BoundaryPoint>& points,
+                        Selection& selection) {
+  const Pair longest = longest_chord(points);
+  if (longest.a < 0) return;
+  const Point<2> a = points[longest.a].at, b = points[longest.b].at, middle_point = halfway(a, b);
+  const Point<2> along = unit(minus(b, a)), across{-along[1], along[0]};
+  const auto& f = partition.curves()[points[longest.a].curve];
+  // Newton's iteration along the bisector.
+  double t = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Point<2> at{middle_point[0] + t * across[0], middle_point[1] + t * across[1]};
+    const double slope = dot(f.gradient(at), across);
+    if (!(std::fabs(slope) > 0)) return;
+    t -= f.approximate(at) / slope;
+    if (!(std::fabs(t) < longest.gap)) return;
+  }
+  const double side = t < 0 ? -1 : 1, margin = 0.1 * std::fabs(t) + 0.01 * longest.gap;
+  const double beyond = t + side * margin, behind = -side * margin;
+  const Point<2> p{middle_point[0] + beyond * across[0], middle_point[1] + beyond * across[1]};
+  selection.propose(line_through(p, f.gradient(p)));
+  selection.propose(line_through(
+      {middle_point[0] + behind * across[0], middle_point[1] + behind * across[1]}, across));
 }
 
 }  // namespace
@@ -295,7 +327,9 @@ std::optional<Cut> best_cut(Partition& partition, const OpenCell& cell) {
   const int patience = pair_only ? 2 : 4;
   if (cell.stall > 0 && cell.stall % (patience + 1) == patience) {
     Selection selection(partition, cell);
-    propose_bisector(points, selection);
+    // Subdivide; every third time, refine.
+    if (cell.stall / (patience + 1) % 3 == 2) propose_refinement(partition, points, selection);
+    if (!selection.best) propose_bisector(points, selection);
     if (selection.best) return selection.best;
   }
   Selection selection(partition, cell);
