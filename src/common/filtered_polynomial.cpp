@@ -2,10 +2,12 @@
 #include "common/filtered_polynomial.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "common/interval.hpp"
 #include "common/mpfr_number.hpp"
@@ -170,10 +172,45 @@ std::vector<double> round_all(const std::vector<Number>& values, double* error) 
   }
 }
 
+/// The bits of a positive integer. (mpz_sizeinbase is a call with a table.)
+long bit_length(mpz_srcptr value) {
+  const long limbs = mpz_size(value);
+  return limbs == 0
+             ? 0
+             : GMP_NUMB_BITS * (limbs - 1) + std::bit_width(mpz_limbs_read(value)[limbs - 1]);
+}
+
+bool is_power_of_two(mpz_srcptr value) {
+  const mp_limb_t* limbs = mpz_limbs_read(value);
+  const std::size_t top = mpz_size(value) - 1;
+  return std::has_single_bit(limbs[top]) &&
+         std::all_of(limbs, limbs + top, [](mp_limb_t limb) { return limb == 0; });
+}
+
+/// 2^exponent, which must be normal.
+double power_of_two(long exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
+}
+
+/// value * 2^exponent, if it is a normal double that is recognised without much ado.
+std::optional<double> as_double(const Rational& value, long exponent) {
+  const mpz_srcptr numerator = value.get_num_mpz_t(), denominator = value.get_den_mpz_t();
+  if (mpz_size(numerator) != 1 || !is_power_of_two(denominator)) return std::nullopt;
+  const mp_limb_t digits = mpz_limbs_read(numerator)[0];
+  exponent -= bit_length(denominator) - 1;
+  if (std::bit_width(digits) - std::countr_zero(digits) > 53 || std::labs(exponent) > 900)
+    return std::nullopt;
+  const double magnitude = static_cast<double>(digits) * power_of_two(exponent);
+  return mpz_sgn(numerator) < 0 ? -magnitude : magnitude;
+}
+
 }  // namespace
 
 template <int D>
 struct FilteredPolynomial<D>::Cache {
+  std::once_flag low_once, extended_once;
+  std::vector<double> low;
+  std::vector<long double> extended;
   std::mutex mutex;
   std::map<int, std::vector<Mpfr>> by_bits;
 };
@@ -183,54 +220,86 @@ FilteredPolynomial<D>::FilteredPolynomial(Polynomial<D> exact)
     : exact_(std::move(exact)),
       degree_(std::max(0, exact_.degree())),
       cache_(std::make_shared<Cache>()) {
-  exponent_ = std::numeric_limits<int>::min();
+  exponent_ = exact_.is_zero() ? 0 : std::numeric_limits<int>::min();
   for (const auto& term : exact_.terms()) {
-    long e = 0;
     // |numerator| and |denominator| lie in [2^(s-1), 2^s).
-    e = static_cast<long>(mpz_sizeinbase(term.coefficient.get_num_mpz_t(), 2)) -
-        static_cast<long>(mpz_sizeinbase(term.coefficient.get_den_mpz_t(), 2));
-    exponent_ = std::max<long>(exponent_, e);
+    const long e =
+        bit_length(term.coefficient.get_num_mpz_t()) - bit_length(term.coefficient.get_den_mpz_t());
+    exponent_ = static_cast<int>(std::max<long>(exponent_, e));
   }
-  if (exact_.is_zero()) exponent_ = 0;
   std::size_t size = 1;
   for (int i = 0; i < D; ++i) size *= degree_ + 1;
   coefficients_.assign(size, 0.0);
   magnitudes_.assign(size, 0.0);
-  extended_.assign(size, 0.0L);
-  for (const auto& term : exact_.terms()) {
-    std::size_t index = 0;
-    for (int i = 0; i < D; ++i) index = index * (degree_ + 1) + term.exponent[i];
-    Rational scaled = term.coefficient;
-    if (exponent_ >= 0)
-      mpq_div_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), exponent_);
-    else
-      mpq_mul_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), -static_cast<long>(exponent_));
-    const double c = scaled.get_d();
-    coefficients_[index] = c;
-    magnitudes_[index] = std::fabs(c) * (1 + 0x1p-51);
-    exact_coefficients_ = exact_coefficients_ && Rational(c) == scaled;
-    assign(extended_[index], scaled);
+  for (const auto& term : exact_.terms())
+    set_coefficient(index_of(term.exponent, degree_), term.coefficient);
+  if constexpr (D == 2) rows_ = CoefficientRows(coefficients_, degree_);
+}
+
+template <int D>
+void FilteredPolynomial<D>::set_coefficient(std::size_t index, const Rational& exact) {
+  if (const auto quick = as_double(exact, -static_cast<long>(exponent_))) {
+    coefficients_[index] = *quick;
+  } else {
+    const Rational value = scaled(exact);
+    coefficients_[index] = value.get_d();
+    exact_coefficients_ = exact_coefficients_ && Rational(coefficients_[index]) == value;
   }
+  magnitudes_[index] = std::fabs(coefficients_[index]) * (1 + 0x1p-51);
+}
+
+template <int D>
+std::size_t FilteredPolynomial<D>::index_of(const Exponent<D>& exponent, int degree) {
+  std::size_t index = 0;
+  for (const int e : exponent) index = index * (degree + 1) + e;
+  return index;
+}
+
+template <int D>
+Rational FilteredPolynomial<D>::scaled(const Rational& coefficient) const {
+  Rational result;
+  if (exponent_ >= 0)
+    mpq_div_2exp(result.get_mpq_t(), coefficient.get_mpq_t(), exponent_);
+  else
+    mpq_mul_2exp(result.get_mpq_t(), coefficient.get_mpq_t(), -static_cast<long>(exponent_));
+  return result;
+}
+
+template <int D>
+const std::vector<double>& FilteredPolynomial<D>::low_coefficients() const {
+  std::call_once(cache_->low_once, [this] {
+    cache_->low.assign(coefficients_.size(), 0.0);
+    if (exact_coefficients_) return;
+    for (const auto& term : exact_.terms()) {
+      const std::size_t index = index_of(term.exponent, degree_);
+      const Rational rest = scaled(term.coefficient) - Rational(coefficients_[index]);
+      cache_->low[index] = rest.get_d();
+    }
+  });
+  return cache_->low;
 }
 
 template <int D>
 template <class Number>
-const std::vector<Number>& FilteredPolynomial<D>::coefficients(int bits) const {
+const std::vector<Number>& FilteredPolynomial<D>::coefficients_in(int bits) const {
   if constexpr (std::is_same_v<Number, double>) {
     return coefficients_;
   } else if constexpr (std::is_same_v<Number, long double>) {
-    return extended_;
+    std::call_once(cache_->extended_once, [this] {
+      cache_->extended.assign(coefficients_.size(), 0.0L);
+      for (const auto& term : exact_.terms())
+        assign(cache_->extended[index_of(term.exponent, degree_)], scaled(term.coefficient));
+    });
+    return cache_->extended;
   } else {
     std::lock_guard lock(cache_->mutex);
     auto [entry, is_new] = cache_->by_bits.try_emplace(bits);
     if (is_new) {
       entry->second.assign(coefficients_.size(), Mpfr(bits));
       for (const auto& term : exact_.terms()) {
-        std::size_t index = 0;
-        for (int i = 0; i < D; ++i) index = index * (degree_ + 1) + term.exponent[i];
-        assign(entry->second[index], term.coefficient);
-        mpfr_mul_2si(entry->second[index].get(), entry->second[index].get(),
-                     -static_cast<long>(exponent_), MPFR_RNDN);
+        Mpfr& c = entry->second[index_of(term.exponent, degree_)];
+        assign(c, term.coefficient);
+        mpfr_mul_2si(c.get(), c.get(), -static_cast<long>(exponent_), MPFR_RNDN);
       }
     }
     return entry->second;
@@ -276,8 +345,10 @@ template <int D>
 double FilteredPolynomial<D>::absolute(const Point<D>& magnitude) const {
   // All terms are non-negative: a relative error of at most gamma of the depth, and what underflows
   // (which a precision beyond doubles would not lose).
-  return sum<double>(magnitudes_, magnitude, Kernel::kDoubleBits) * 1.0000001 +
-         underflow<D>(magnitude, degree_);
+  double value = std::numeric_limits<double>::infinity();
+  if constexpr (D == 2) value = rows_.absolute(magnitude);
+  if (!std::isfinite(value)) value = sum<double>(magnitudes_, magnitude, Kernel::kDoubleBits);
+  return value * 1.0000001 + underflow<D>(magnitude, degree_);
 }
 
 template <int D>
@@ -307,11 +378,11 @@ template <class Run>
 void FilteredPolynomial<D>::with_coefficients(int bits, Kernel& kernel, Run run) const {
   if (Kernel::is_mpfr(bits)) {
     ++kernel.mpfr_expansions;
-    run(coefficients<Mpfr>(bits));
+    run(coefficients_in<Mpfr>(bits));
   } else if (bits == Kernel::kExtendedBits) {
-    run(coefficients<long double>(bits));
+    run(coefficients_in<long double>(bits));
   } else {
-    run(coefficients<double>(bits));
+    run(coefficients_in<double>(bits));
   }
 }
 
@@ -511,10 +582,20 @@ void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, K
 
 template <int D>
 template <class Coordinate>
-double FilteredPolynomial<D>::horner_at(const std::array<Coordinate, D>& point, int bits) const {
-  if (Kernel::is_mpfr(bits)) return to_double(sum<Mpfr>(coefficients<Mpfr>(bits), point, bits));
-  if (bits == Kernel::kExtendedBits) return to_double(sum<long double>(extended_, point, bits));
-  return sum<double>(coefficients_, point, bits);
+double FilteredPolynomial<D>::value_at(const std::array<Coordinate, D>& point, int bits) const {
+  if (Kernel::is_mpfr(bits)) return to_double(sum<Mpfr>(coefficients_in<Mpfr>(bits), point, bits));
+  if (bits == Kernel::kExtendedBits)
+    return to_double(sum<long double>(coefficients_in<long double>(bits), point, bits));
+  Point<D> rounded;
+  for (int i = 0; i < D; ++i) assign(rounded[i], point[i]);
+  return approximate(rounded);
+}
+
+/// In any arithmetic, without those of the coefficients and coordinates. Horner's rule has
+/// 2 degree_ + D.
+template <int D>
+int FilteredPolynomial<D>::roundings_at_point() const {
+  return D == 2 ? CoefficientRows::roundings(degree_) : 2 * degree_ + D;
 }
 
 template <int D>
@@ -534,7 +615,7 @@ typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::evaluate(const Poin
                                                                       int bits) const {
   Point<D> magnitude;
   for (int i = 0; i < D; ++i) magnitude[i] = std::fabs(point[i]);
-  return with_error(horner_at(point, bits), magnitude, kCoefficientRoundings + 2 * degree_ + D,
+  return with_error(value_at(point, bits), magnitude, kCoefficientRoundings + roundings_at_point(),
                     bits);
 }
 
@@ -542,16 +623,43 @@ template <int D>
 typename FilteredPolynomial<D>::Value FilteredPolynomial<D>::evaluate_rounded(
     const Point<D>& point, const Point<D>& magnitude, int roundings) const {
   return with_error(approximate(point), magnitude,
-                    kCoefficientRoundings + (2 + roundings) * degree_ + D, Kernel::kDoubleBits);
+                    kCoefficientRoundings + roundings_at_point() + roundings * degree_,
+                    Kernel::kDoubleBits);
 }
 
 template <int D>
 double FilteredPolynomial<D>::approximate(const Point<D>& point) const {
+  if constexpr (D == 2) {
+    const double value = rows_.value(point);
+    if (std::isfinite(value)) return value;
+  }
   return sum<double>(coefficients_, point, Kernel::kDoubleBits);
 }
 
 template <int D>
+typename FilteredPolynomial<D>::ValueAndGradient FilteredPolynomial<D>::value_and_gradient(
+    const Point<D>& point) const {
+  if constexpr (D == 2) {
+    const Jet jet = rows_.value_and_gradient(point);
+    if (std::isfinite(jet.value + jet.gradient[0] + jet.gradient[1]))
+      return {jet.value, jet.gradient};
+  }
+  return {sum<double>(coefficients_, point, Kernel::kDoubleBits), gradient_by_horner(point)};
+}
+
+template <int D>
 Point<D> FilteredPolynomial<D>::gradient(const Point<D>& point) const {
+  if constexpr (D == 2) return value_and_gradient(point).gradient;
+  return gradient_by_horner(point);
+}
+
+template <int D>
+Jet FilteredPolynomial<D>::jet(const Point<D>& point) const requires(D == 2) {
+  return rows_.jet(point);
+}
+
+template <int D>
+Point<D> FilteredPolynomial<D>::gradient_by_horner(const Point<D>& point) const {
   // Forward differentiation through Horner's rule: beside the block of values go the blocks of the
   // derivatives with respect to the variables summed out so far.
   const int n = degree_ + 1;
@@ -596,9 +704,9 @@ Sign FilteredPolynomial<D>::sign_at(const RationalPoint<D>& point, Kernel& kerne
     if (magnitude[i] < 0x1p-900) magnitude[i] = 0x1p-900;
   }
   // Every factor of a coordinate brings the (at most two) roundings of its conversion along.
-  const int roundings = kCoefficientRoundings + 4 * degree_ + D;
+  const int roundings = kCoefficientRoundings + roundings_at_point() + 2 * degree_;
   for (int bits = kernel.start_bits; bits > 0; bits = kernel.next(bits)) {
-    const Value v = with_error(horner_at(point, bits), magnitude, roundings, bits);
+    const Value v = with_error(value_at(point, bits), magnitude, roundings, bits);
     if (std::fabs(v.value) > v.error) {
       kernel.count(bits);
       return v.value > 0 ? Sign::Positive : Sign::Negative;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/bernstein.hpp"
+#include "common/coefficient_rows.hpp"
 #include "common/kernel.hpp"
 #include "encase/geometry.hpp"
 #include "encase/polynomial.hpp"
@@ -44,10 +45,10 @@ class SegmentChart {
 double reach_across(const Line& line, double reach);
 
 /// An exact polynomial with what the kernel needs to ask about it quickly: its coefficients as
-/// doubles, and on demand in MPFR at any precision. Scaled by a power of two so that the largest
-/// coefficient lies in [1/2, 2). Immutable but for the cache of MPFR coefficients, which is
-/// guarded: const queries may run in parallel. The error bounds are derived in
-/// docs/error-bounds.md.
+/// doubles, and on demand as pairs of doubles, in extended precision and in MPFR. Scaled by a power
+/// of two so that the largest coefficient lies in [1/2, 2). Immutable but for the cache of what is
+/// made on demand, which is guarded: const queries may run in parallel. The error bounds are
+/// derived in docs/error-bounds.md.
 template <int D>
 class FilteredPolynomial {
  public:
@@ -58,6 +59,15 @@ class FilteredPolynomial {
   /// The power of two (rounded into the range of doubles) by which scaled values are to be
   /// multiplied.
   double scale() const { return std::ldexp(1.0, exponent_); }
+
+  /// The scaled coefficients: dense, (degree() + 1)^D, last variable fastest. Each is within one
+  /// unit in the last place of the exact one, or within 2^-1022.
+  const std::vector<double>& coefficients() const { return coefficients_; }
+  /// Whether coefficients() are the scaled coefficients exactly.
+  bool exact_coefficients() const { return exact_coefficients_; }
+  /// In the same layout what coefficients() lack: the sum of both is within 2^-104 of the exact
+  /// coefficient, relatively, or within 2^-1022. All zero if coefficients() are exact.
+  const std::vector<double>& low_coefficients() const;
 
   /// The Bernstein form on a box whose corner lo goes to (-1, ..., -1) and hi to (1, ..., 1), of
   /// degree `net_degree` (>= degree()) in every variable. `bits` is 53 for doubles, else the MPFR
@@ -81,9 +91,15 @@ class FilteredPolynomial {
   /// `magnitude`.
   Value evaluate_rounded(const Point<D>& point, const Point<D>& magnitude, int roundings) const;
 
-  /// Approximate (scaled) value and gradient, for heuristics and Newton steps.
+  /// Approximate (scaled) value and derivatives, for heuristics and Newton steps.
   double approximate(const Point<D>& point) const;
   Point<D> gradient(const Point<D>& point) const;
+  struct ValueAndGradient {
+    double value;
+    Point<D> gradient;
+  };
+  ValueAndGradient value_and_gradient(const Point<D>& point) const;
+  Jet jet(const Point<D>& point) const requires(D == 2);
 
   /// The exact sign at a rational point: doubles, MPFR, then exact arithmetic. Never fails.
   Sign sign_at(const RationalPoint<D>& point, Kernel& kernel) const;
@@ -93,8 +109,12 @@ class FilteredPolynomial {
 
  private:
   struct Cache;
+  static std::size_t index_of(const Exponent<D>& exponent, int degree);
+  Rational scaled(const Rational& coefficient) const;
+  void set_coefficient(std::size_t index, const Rational& exact);
+  /// `Number` stands for the precision `bits`.
   template <class Number>
-  const std::vector<Number>& coefficients(int bits) const;
+  const std::vector<Number>& coefficients_in(int bits) const;
   /// run(coefficients) in the numbers that `bits` stands for.
   template <class Run>
   void with_coefficients(int bits, Kernel& kernel, Run run) const;
@@ -102,16 +122,18 @@ class FilteredPolynomial {
   Number sum(const std::vector<Number>& coefficients, const std::array<Coordinate, D>& point,
              int bits) const;
   template <class Coordinate>
-  double horner_at(const std::array<Coordinate, D>& point, int bits) const;
+  double value_at(const std::array<Coordinate, D>& point, int bits) const;
+  int roundings_at_point() const;
+  Point<D> gradient_by_horner(const Point<D>& point) const;
   Value with_error(double value, const Point<D>& magnitude, int roundings, int bits) const;
 
   Polynomial<D> exact_;
   int degree_ = 0;
   int exponent_ = 0;                  ///< the scaled polynomial is exact_ / 2^exponent_
   std::vector<double> coefficients_;  ///< dense, (degree_ + 1)^D, last variable fastest
-  std::vector<long double> extended_;
-  bool exact_coefficients_ = true;  ///< the doubles are the scaled coefficients
-  std::vector<double> magnitudes_;  ///< |coefficients_|, rounded up
+  bool exact_coefficients_ = true;    ///< the doubles are the scaled coefficients
+  std::vector<double> magnitudes_;    ///< |coefficients_|, rounded up
+  CoefficientRows rows_;              ///< in two variables, of coefficients_
   std::shared_ptr<Cache> cache_;
 };
 

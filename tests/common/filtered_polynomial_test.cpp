@@ -412,5 +412,65 @@ TEST(RestrictTo, SegmentsAndTheirPartsAreEnclosed) {
   }
 }
 
+TEST(Coefficients, AreExactWhereTheyAreDoubles) {
+  const auto f = polynomial<2>("1 + 3*x - 7/1024*y^2 + 9007199254740991*x*y + 1/2^60*x^2");
+  const FilteredPolynomial<2> g(f);
+  EXPECT_TRUE(g.exact_coefficients());
+  for (const auto& term : f.terms())
+    EXPECT_EQ(Rational(Rational(g.scale()) *
+                       Rational(g.coefficients()[term.exponent[0] * 3 + term.exponent[1]])),
+              term.coefficient);
+  for (const double low : g.low_coefficients()) EXPECT_EQ(low, 0.0);
+}
+
+TEST(Coefficients, AreNotExactWhereOneIsNoDouble) {
+  for (const char* text : {"x + 1/3*y", "x + 9007199254740993*y", "2^70*x + (2^70 + 1)*y",
+                           "x + 18446744073709551615*y"})
+    EXPECT_FALSE(FilteredPolynomial<2>(polynomial<2>(text)).exact_coefficients()) << text;
+}
+
+TEST(Coefficients, AreExactAtTheEndsOfTheRange) {
+  Rational tiny(5), large(5);
+  mpq_div_2exp(tiny.get_mpq_t(), tiny.get_mpq_t(), 1000);
+  mpq_mul_2exp(large.get_mpq_t(), large.get_mpq_t(), 3000);
+  const auto x = Polynomial<2>::variable(0), y = Polynomial<2>::variable(1);
+  const FilteredPolynomial<2> f(x + Polynomial<2>::constant(tiny) * y);
+  EXPECT_TRUE(f.exact_coefficients());
+  EXPECT_EQ(f.coefficients()[1], std::ldexp(5.0, -1000) / f.scale());
+  EXPECT_TRUE(FilteredPolynomial<2>(Polynomial<2>::constant(large) * x).exact_coefficients());
+  // Far below what a double holds beside the other coefficient.
+  EXPECT_FALSE(FilteredPolynomial<2>(Polynomial<2>::constant(large) * x + y).exact_coefficients());
+}
+
+TEST(Coefficients, PairsOfDoublesHoldRationals) {
+  for (const auto& exact : random_list<2>(7, 3, 11)) {
+    const auto f = Polynomial<2>::constant(Rational(1, 3)) * exact;
+    const FilteredPolynomial<2> g(f);
+    EXPECT_FALSE(g.exact_coefficients());
+    const auto reference = scaled(g);
+    for (const auto& term : reference.terms()) {
+      const std::size_t k = static_cast<std::size_t>(term.exponent[0] * 8 + term.exponent[1]);
+      const Rational high(g.coefficients()[k]), low(g.low_coefficients()[k]);
+      EXPECT_LE(abs(Rational(high - term.coefficient)), Rational(0x1p-52) * abs(term.coefficient));
+      EXPECT_LE(abs(Rational(high + low - term.coefficient)),
+                Rational(0x1p-104) * abs(term.coefficient));
+    }
+  }
+}
+
+TEST(Coefficients, CanBeAskedForInParallel) {
+  const FilteredPolynomial<2> f(Polynomial<2>::constant(Rational(1, 3)) *
+                                random_list<2>(9, 1, 12).front());
+  std::vector<std::thread> threads;
+  std::vector<const std::vector<double>*> lows(4);
+  for (auto& low : lows)
+    threads.emplace_back([&f, &low] {
+      low = &f.low_coefficients();
+      f.evaluate({0.5, 0.25}, Kernel::kExtendedBits);
+    });
+  for (auto& thread : threads) thread.join();
+  for (const auto* low : lows) EXPECT_EQ(low, lows[0]);
+}
+
 }  // namespace
 }  // namespace encase
