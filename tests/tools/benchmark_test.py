@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+"""A short run of encase_benchmark: what it prints and writes is there and makes sense. No times
+are compared.
+
+Usage: benchmark_test.py PATH_TO_ENCASE_BENCHMARK [unittest arguments]
+"""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BENCHMARK = None
+SHORT = ("--degrees", "2,3", "--seeds", "1", "--repeat", "1")
+
+
+def benchmark(*arguments, timeout=500):
+    return subprocess.run([BENCHMARK, *arguments], capture_output=True, text=True, timeout=timeout)
+
+
+class ShortRun(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.csv = os.path.join(cls.folder.name, "tables.csv")
+        json_file = os.path.join(cls.folder.name, "tables.json")
+        markdown = os.path.join(cls.folder.name, "tables.md")
+        cls.run_ = benchmark(*SHORT, "--csv", cls.csv, "--json", json_file, "--markdown", markdown)
+        if cls.run_.returncode != 0:
+            raise AssertionError(cls.run_.stderr)
+        with open(json_file) as file:
+            content = json.load(file)
+        cls.machine, cls.tables = content["machine"], content["tables"]
+        with open(markdown) as file:
+            cls.markdown = file.read()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_prints_the_machine_and_every_table(self):
+        self.assertEqual(self.run_.stderr, "")
+        self.assertEqual(self.run_.stdout.splitlines()[0], self.machine)
+        for title in ("a floor is four Newton steps", "The curves of tests/data/curves",
+                      "Curves that nearly touch", "The most memory"):
+            self.assertIn(title, self.run_.stdout)
+            self.assertIn(title, self.markdown)
+
+    def test_random_pairs_are_certified_with_times_and_floors(self):
+        self.assertEqual([row["degree"] for row in self.tables["floors"]], [2, 3])
+        for row in self.tables["floors"]:
+            self.assertEqual(row["outcome"], "certified")
+            for column in ("floor us", "together us", "isolation us", "encasement ms", "floors"):
+                self.assertGreater(row[column], 0, column)
+
+    def test_newton_steps_of_the_floor_end_at_the_crossings(self):
+        self.assertEqual(len(self.tables["pairs"]), 2)
+        for row in self.tables["pairs"]:
+            self.assertLess(row["Newton error"], 1e-12)
+
+    def test_cells_are_counted_and_not_fewer_than_crossings(self):
+        for row in self.tables["work"]:
+            self.assertGreaterEqual(row["cells"], row["crossings"])
+            self.assertGreater(row["root boxes"], 0)
+            self.assertGreater(row["by double"], 0)
+        self.assertEqual(self.tables["work"][0]["authors' cells"], "7-10")
+
+    def test_all_files_of_the_directory_are_encased(self):
+        rows = {row["curves"]: row for row in self.tables["files"]}
+        self.assertEqual(rows["haas_drrs_sparse"]["outcome"], "certified")
+        self.assertEqual(rows["haas_drrs_sparse"]["crossings"], 5)
+        self.assertEqual(rows["degenerate_cusp_vs_y0"]["outcome"], "degenerate")
+        for k in range(7, 13):
+            self.assertEqual(rows[f"cxy_{k}"]["outcome"], "certified")
+
+    def test_near_tangencies_include_the_parabolas(self):
+        rows = {row["curves"]: row for row in self.tables["near tangencies"]}
+        self.assertEqual(len(rows), 13)
+        self.assertGreater(rows["parabolas 1e-6 apart, relaxed"]["relaxed"], 0)
+        self.assertEqual(rows["circle and line, overlap 1e-4"]["crossings"], 2)
+        self.assertEqual(rows["circle and line, gap 1e-4"]["crossings"], 0)
+
+    def test_cgal_finds_the_same_crossings(self):
+        if "without CGAL" in self.machine:
+            self.assertNotIn("cgal", self.tables)
+            return
+        self.assertEqual(len(self.tables["cgal"]), 2)
+        for row in self.tables["cgal"]:
+            self.assertEqual(row["the same"], "yes")
+            self.assertEqual(row["CGAL's"], row["in the box"])
+            self.assertGreater(row["CGAL ms"], row["without coordinates ms"])
+            self.assertGreater(row["ratio"], row["ratio without coordinates"])
+
+    def test_csv_holds_the_same_tables(self):
+        with open(self.csv, newline="") as file:
+            rows = list(csv.reader(file))
+        titles = [row[0] for row in rows if row and row[0].startswith("# ")]
+        self.assertEqual(len(titles), len(self.tables))
+        pairs = rows.index(["# Every random pair; times in seconds"])
+        header, first = rows[pairs + 1], rows[pairs + 2]
+        self.assertEqual(len(header), len(first))
+        self.assertEqual(float(first[header.index("encasement")]),
+                         self.tables["pairs"][0]["encasement"])
+
+
+class Usage(unittest.TestCase):
+    def refused(self, *arguments):
+        run = benchmark(*arguments)
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(run.stdout, "")
+        self.assertTrue(run.stderr.startswith("encase_benchmark: "), run.stderr)
+        return run.stderr
+
+    def test_unknown_options_and_values_are_refused(self):
+        self.assertIn("--help", self.refused("--fast-and-loose"))
+        self.assertIn("--degrees", self.refused("--degrees", "61"))
+        self.assertIn("--only", self.refused("--only", "nothing"))
+        self.assertIn("--curves", self.refused("--curves", "/no/such/directory"))
+
+    def test_help_names_the_options(self):
+        run = benchmark("--help")
+        self.assertEqual(run.returncode, 0)
+        for option in ("--degrees", "--seeds", "--cgal-degrees", "--repeat", "--csv", "--json"):
+            self.assertIn(option, run.stdout)
+
+    def test_a_file_that_cannot_be_written_is_an_error(self):
+        run = benchmark("--only", "growth", "--degrees", "2", "--seeds", "1", "--repeat", "1",
+                        "--csv", "/no/such/directory/tables.csv")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("/no/such/directory", run.stderr)
+
+
+if __name__ == "__main__":
+    BENCHMARK = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+//
+// The command `encase_benchmark`: times of Encase, beside CGAL's where that is found; one thread,
+// CPU time, random pairs as in thesis 5.1. docs/benchmarks.md explains the tables.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "encase/atomic_file.hpp"
+#include "newton_floor.hpp"
+#include "tables.hpp"
+
+namespace {
+
+using namespace encase::benchmark;
+
+struct Outputs {
+  std::string csv, json, markdown;
+};
+
+/// A table by its name, and how it is made.
+struct Section {
+  std::string name;
+  std::function<Table(RandomPairs&, const Request&)> make;
+};
+
+/// In the order in which they are measured: memory first, as long as the process is small; CGAL
+/// last, as it takes the longest.
+const std::vector<Section>& sections() {
+  static const std::vector<Section> list{
+      {"memory", [](RandomPairs&, const Request& r) { return memory_table(r); }},
+      {"floors", floors_table},
+      {"work", work_table},
+      {"files", [](RandomPairs&, const Request& r) { return files_table(r); }},
+      {"tangencies", [](RandomPairs&, const Request& r) { return near_tangency_table(r); }},
+      {"locality", [](RandomPairs&, const Request& r) { return locality_table(r); }},
+      {"growth", growth_table},
+      {"cgal", cgal_table}};
+  return list;
+}
+
+int fail(const std::string& message) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "encase_benchmark: %s\n", message.c_str());
+  return 1;
+}
+
+std::string processor() {
+  std::string name = "unknown processor";
+  if (std::FILE* file = std::fopen("/proc/cpuinfo", "r")) {
+    char line[512];
+    while (std::fgets(line, sizeof line, file)) {
+      const std::string text = line;
+      if (text.rfind("model name", 0) != 0) continue;
+      name = text.substr(text.find(':') + 2);
+      name.erase(name.find_last_not_of('\n') + 1);
+      break;
+    }
+    std::fclose(file);
+  }
+  return name;
+}
+
+std::string machine() {
+  const std::string cgal = cgal_version();
+  return fmt::format("{}, {} cores, one used; {}; compiler {}; {}", processor(),
+                     std::thread::hardware_concurrency(), vector_instructions(), __VERSION__,
+                     cgal.empty() ? "without CGAL" : "CGAL " + cgal);
+}
+
+void add_options(CLI::App& app, Request& request, Outputs& outputs,
+                 std::vector<std::string>& only) {
+  app.add_option("--degrees", request.degrees, "of the random pairs")
+      ->delimiter(',')
+      ->check(CLI::Range(1, encase::kMaxDegree))
+      ->capture_default_str();
+  app.add_option("--seeds", request.seeds, "of the random pairs")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--cgal-degrees", request.cgal_degrees,
+                 "run CGAL up to this degree; 0: not at all")
+      ->type_name("D")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--repeat", request.repetitions.count,
+                 "time everything so often; 0: as often as takes 50 ms")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  std::vector<std::string> names;
+  for (const Section& section : sections()) names.push_back(section.name);
+  app.add_option("--only", only, "these tables: " + fmt::format("{}", fmt::join(names, ", ")))
+      ->type_name("TABLE,...")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names));
+  app.add_option("--curves", request.curves_directory, "the directory of .curves files")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory)
+      ->capture_default_str();
+  app.add_option("--csv", outputs.csv, "write the tables and every pair with all digits")
+      ->type_name("FILE");
+  app.add_option("--json", outputs.json, "the same as JSON")->type_name("FILE");
+  app.add_option("--markdown", outputs.markdown, "write the tables as they are printed")
+      ->type_name("FILE");
+}
+
+encase::Status write_outputs(const Outputs& outputs, const std::vector<Table>& tables) {
+  if (!outputs.csv.empty())
+    if (auto status = encase::write_file(outputs.csv, to_csv(tables))) return status;
+  if (!outputs.json.empty())
+    if (auto status = encase::write_file(outputs.json, to_json(machine(), tables))) return status;
+  if (outputs.markdown.empty()) return {};
+  std::string text = machine() + "\n";
+  for (const Table& table : tables)
+    if (table.printed) text += "\n" + to_markdown(table);
+  return encase::write_file(outputs.markdown, text);
+}
+
+/// Prints every table as soon as it is measured.
+std::vector<Table> measure(RandomPairs& pairs, const Request& request,
+                           const std::vector<std::string>& only) {
+  std::vector<Table> tables;
+  for (const Section& section : sections()) {
+    if (!only.empty() && std::find(only.begin(), only.end(), section.name) == only.end()) continue;
+    Table table = section.make(pairs, request);
+    if (table.rows.empty()) continue;
+    fmt::print("\n{}", to_text(table));
+    std::fflush(stdout);
+    tables.push_back(std::move(table));
+  }
+  tables.push_back(every_pair_table(pairs, request));
+  return tables;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Times of Encase, beside CGAL's", "encase_benchmark");
+  app.footer(
+      "Times are CPU time of one thread; figures are medians. Exit codes: 0 measured, 1 not.");
+  Request request;
+  request.curves_directory = ENCASE_BENCHMARK_CURVES;
+  Outputs outputs;
+  std::vector<std::string> only;
+  add_options(app, request, outputs, only);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);
+    return fail(std::string(e.what()) + "; see encase_benchmark --help");
+  }
+  try {
+    if (cgal_version().empty()) request.cgal_degrees = 0;
+    fmt::print("{}\n", machine());
+    RandomPairs pairs(request.repetitions);
+    if (const auto status = write_outputs(outputs, measure(pairs, request, only)))
+      return fail(status->message);
+  } catch (const std::exception& e) {
+    return fail(e.what());
+  }
+  return 0;
+}
