@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "2d/partition.hpp"
+#include "2d/splitting_lines.hpp"
 #include "common/subdivision.hpp"
 #include "encase/encasement.hpp"
 
@@ -31,8 +32,10 @@ class Encaser {
 
  private:
   enum class Shape { Simple, Relaxable, Complex };
-  Shape shape_of(const OpenCell& cell) const;
-  std::optional<Cut> next_cut(const OpenCell& cell, CellState* settled);
+  static Shape shape_of(const CellAtHand& at_hand);
+  bool find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* settled);
+  bool find_cut_at_zone(const OpenCell& cell, SplittingLines& lines, CellState* settled);
+  void find_saddles();
   bool out_of_budget();
   /// Tells the caller's progress callback; a refusal uses the budget up.
   void progress(const char* stage, double done);

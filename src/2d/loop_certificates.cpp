@@ -5,52 +5,64 @@
 #include <cmath>
 
 namespace encase {
+namespace {
 
-std::optional<LoopCertificate> certify_no_loop(Partition& partition, const OpenCell& cell,
-                                               int critical_region) {
+/// A point of the cell's boundary between its vertices and crossings.
+struct Target {
+  int edge;
+  Point<2> at;
+  double gap;  ///< squared
+};
+
+constexpr int kMaxTargets = 12;
+
+/// Thirds of what lies between two stops on the boundary, and the foot of the perpendicular where
+/// it falls between.
+void add_targets(const Point<2>& from, int edge, const Point<2>& a, const Point<2>& b,
+                 std::vector<Target>* targets) {
+  const Point<2> d{b[0] - a[0], b[1] - a[1]};
+  const double square = d[0] * d[0] + d[1] * d[1];
+  double foot = 0.5;
+  if (square > 0)
+    foot = std::clamp(((from[0] - a[0]) * d[0] + (from[1] - a[1]) * d[1]) / square, 0.1, 0.9);
+  for (const double w : {foot, 0.3, 0.7}) {
+    const Point<2> at{a[0] + w * d[0], a[1] + w * d[1]};
+    const double x = at[0] - from[0], y = at[1] - from[1];
+    targets->push_back({edge, at, x * x + y * y});
+  }
+}
+
+}  // namespace
+
+std::optional<LoopCertificate> certify_no_loop(CellAtHand& at_hand, int critical_region) {
+  Partition& partition = at_hand.partition();
+  const OpenCell& cell = at_hand.cell();
   const CriticalRegion& region = partition.critical_regions[critical_region];
   const FilteredPolynomial<2>& f = partition.curves()[region.curve];
-  // Targets: points of the boundary between its vertices and crossings.
-  struct Target {
-    int edge;
-    Point<2> at;
-    double gap;
-  };
-  std::vector<Point<2>> stops;
-  std::vector<int> edges;
-  const int n = static_cast<int>(cell.edges.size());
-  for (int k = 0; k < n; ++k) {
-    stops.push_back(middle(cell.vertices[k]));
-    edges.push_back(k);
-    for (const int id : cell.edges[k].crossings) {
-      stops.push_back(partition.spot(id).at);
-      edges.push_back(k);
-    }
-  }
   const Point<2> from = region.boxes.front().center();
-  std::vector<Target> targets;
-  for (std::size_t i = 0; i < stops.size(); ++i) {
-    const Point<2>&a = stops[i], &b = stops[(i + 1) % stops.size()];
-    // Thirds, and the foot of the perpendicular where it falls between.
-    const Point<2> d{b[0] - a[0], b[1] - a[1]};
-    const double square = d[0] * d[0] + d[1] * d[1];
-    double foot = 0.5;
-    if (square > 0)
-      foot = std::clamp(((from[0] - a[0]) * d[0] + (from[1] - a[1]) * d[1]) / square, 0.1, 0.9);
-    for (const double w : {foot, 0.3, 0.7}) {
-      const Point<2> at{a[0] + w * d[0], a[1] + w * d[1]};
-      const double value = f.approximate(at);
-      if ((value > 0) != (region.sign == Sign::Positive)) continue;
-      targets.push_back({edges[i], at, std::hypot(at[0] - from[0], at[1] - from[1])});
+  thread_local std::vector<Target> targets;
+  targets.clear();
+  const auto& points = at_hand.points();
+  for (int k = 0; k < cell.size(); ++k) {
+    Point<2> last = cell.vertices[k].center;
+    for (int i = cell.begin_of(k); i < cell.edges[k].end; ++i) {
+      add_targets(from, k, last, points[i].at, &targets);
+      last = points[i].at;
     }
+    add_targets(from, k, last, cell.vertices[k + 1 < cell.size() ? k + 1 : 0].center, &targets);
   }
-  std::stable_sort(targets.begin(), targets.end(),
-                   [](const Target& a, const Target& b) { return a.gap < b.gap; });
-  if (targets.size() > 12) targets.resize(12);
+  std::sort(targets.begin(), targets.end(), [](const Target& a, const Target& b) {
+    return a.gap != b.gap       ? a.gap < b.gap
+           : a.at[0] != b.at[0] ? a.at[0] < b.at[0]
+                                : a.at[1] < b.at[1];
+  });
+  int tries = 0;
   for (const Target& target : targets) {
+    if ((f.approximate(target.at) > 0) != (region.sign == Sign::Positive)) continue;
+    if (++tries > kMaxTargets) break;
     const Line& line = partition.lines[cell.edges[target.edge].line];
     // The inside of the edge, told by the region itself.
-    const auto inside = side(line, region.boxes.front(), partition.kernel());
+    const auto inside = side(line, Place(region.boxes.front()), partition.kernel());
     if (!inside) continue;
     // A little beyond the boundary, so that the end is proved not to be inside.
     for (const double beyond : {1e-12, 1e-9, 1e-6}) {

@@ -3,14 +3,13 @@
 
 #include <optional>
 
-#include "2d/partition.hpp"
+#include "2d/cell_at_hand.hpp"
 
 namespace encase {
 
 /// Proves that no loop in the cell surrounds a critical region inside it: a segment from the region
 /// to the cell's boundary on which the curve has no point. A loop around the region would have to
 /// cross it. Nothing if none of the segments tried is free of the curve.
-std::optional<LoopCertificate> certify_no_loop(Partition& partition, const OpenCell& cell,
-                                               int critical_region);
+std::optional<LoopCertificate> certify_no_loop(CellAtHand& at_hand, int critical_region);
 
 }  // namespace encase

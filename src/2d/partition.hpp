@@ -2,11 +2,12 @@
 #pragma once
 
 #include <array>
+#include <memory_resource>
 #include <optional>
 #include <vector>
 
+#include "2d/places.hpp"
 #include "common/filtered_polynomial.hpp"
-#include "common/interval.hpp"
 #include "common/segments.hpp"
 #include "encase/encasement.hpp"
 
@@ -18,19 +19,35 @@ namespace encase {
 struct OpenCell {
   struct Edge {
     int line = -1;
-    bool positive = false;       ///< the cell is on the line's positive side
-    std::vector<int> crossings;  ///< line crossings on the edge, counter-clockwise
+    bool positive = false;  ///< the cell is on the line's positive side
+    int end = 0;            ///< where the edge's crossings end in the word
   };
-  std::vector<Edge> edges;
-  std::vector<std::array<Interval, 2>> vertices;  ///< enclosures
-  std::vector<int> crossings;                     ///< crossings of two curves inside
-  std::vector<int> critical_regions;              ///< those that lie wholly inside
-  std::vector<int> zones;                         ///< unresolved zones that it meets
+  using Memory = std::pmr::memory_resource;
+  explicit OpenCell(Memory* memory = std::pmr::get_default_resource())
+      : edges(memory),
+        vertices(memory),
+        word(memory),
+        crossings(memory),
+        critical_regions(memory),
+        zones(memory),
+        saddles(memory) {}
+
+  std::pmr::vector<Edge> edges;
+  std::pmr::vector<Place> vertices;
+  std::pmr::vector<int> word;              ///< line crossings, counter-clockwise from vertex 0
+  std::pmr::vector<int> crossings;         ///< crossings of two curves inside
+  std::pmr::vector<int> critical_regions;  ///< those that lie wholly inside
+  std::pmr::vector<int> zones;             ///< unresolved zones that it meets
+  std::pmr::vector<int> saddles;           ///< about those inside
   int depth = 0;
   int parent = -1;        ///< node of the history that made it, -1 for the region used
   bool positive = false;  ///< on the positive side of that node's line
-  double least_estimate = 1e300;
-  int stall = 0;  ///< levels since the estimate has last fallen
+  int least_cells =
+      1 << 30;    ///< the least that `Cut::least_cells` has been for it or its ancestors
+  int stall = 0;  ///< levels since that has last fallen
+
+  int size() const { return static_cast<int>(edges.size()); }
+  int begin_of(int edge) const { return edge == 0 ? 0 : edges[edge - 1].end; }
 };
 
 /// A box that resists, grown by what the search keeps clear around it.
@@ -39,23 +56,31 @@ struct Zone {
   Box<2> clearance;  ///< the cell that holds the zone is cut down to about this box
 };
 
-/// What a line would do to a cell.
+/// What a line does to a cell.
 struct Cut {
   Line line;
-  int out = -1;        ///< the edge on which the boundary leaves the negative side
-  int in = -1;         ///< the edge on which it comes back
-  int before_out = 0;  ///< crossings on edge `out` before the cut
-  int before_in = 0;   ///< crossings on edge `in` before the cut
-  std::array<Interval, 2> vertex_out, vertex_in;
+  int out = -1;         ///< the edge on which the boundary leaves the negative side
+  int in = -1;          ///< the edge on which it comes back
+  int word_at_out = 0;  ///< crossings of the cell's word before the cut of edge `out`
+  int word_at_in = 0;   ///< and before that of edge `in`
+  Place vertex_out, vertex_in;
   struct Root {
     int curve;
     RootInterval interval;
   };
-  std::vector<Root> roots;  ///< of every curve alive on the chord
-  /// For each side (0 negative, 1 positive), boundary crossings of every curve.
-  std::array<std::vector<int>, 2> counts;
-  std::array<std::vector<int>, 2> crossings;  ///< crossings of two curves on each side
-  double score = 0;
+  std::vector<Root> roots;           ///< of every curve alive on the chord
+  std::vector<char> positive;        ///< for every crossing in the cell, on which side it lies
+  std::array<int, 2> least_cells{};  ///< of the negative and the positive part, by counting
+  double score = 0;                  ///< the cells to be expected of both, and what else matters
+};
+
+/// A saddle of a curve's polynomial, approximately: two branches that nearly meet pass on both
+/// sides of one. Along the line with the given normal no branch is near.
+struct Saddle {
+  int curve = -1;
+  Point<2> at{};
+  Point<2> normal{};
+  double reach = 0;  ///< about how far the branches are
 };
 
 class Partition {
@@ -67,56 +92,49 @@ class Partition {
   std::vector<Crossing> crossings;
   std::vector<CriticalRegion> critical_regions;
   std::vector<Zone> zones;
+  std::vector<Saddle> saddles;  ///< those with the nearest branches first
   std::vector<Split> history;
   std::int64_t lines_tried = 0;
 
   const std::vector<FilteredPolynomial<2>>& curves() const { return curves_; }
-  /// The partial derivatives of a curve's polynomial (each scaled on its own), for heuristics.
-  const std::array<FilteredPolynomial<2>, 2>& partials(int curve) const { return partials_[curve]; }
   Kernel& kernel() { return kernel_; }
+  OpenCell::Memory* memory() { return &memory_; }
 
   /// The polygon with the given sides (its inside negative) as the first cell, its sides crossed by
   /// the curves: nothing if a crossing is not simple, at a corner, or not told from another one.
   std::optional<OpenCell> open(const std::vector<Line>& sides);
+  /// Gives the opened cell the crossings, critical regions, zones and saddles inside it.
+  void fill(OpenCell* cell);
 
-  /// What `line` would do to the cell; nothing if it misses the cell, meets a vertex, a crossing
-  /// box or a zone, or if the roots on it are not proved. `enough`: the score above which it is of
-  /// no interest. Refines crossings on the cell's edges where it must.
-  std::optional<Cut> try_line(const OpenCell& cell, const Line& line, double enough);
+  /// Isolates the roots of a curve between two vertices of a line, on both of which it must not
+  /// vanish, and appends them to `roots`; false if something is not proved.
+  bool isolate_between(int curve, const Line& line, const Interval& from, const Interval& to,
+                       int max_nodes, std::vector<Cut::Root>* roots);
+  /// How many crossings of an edge come before a vertex on it. Refines them where it must; nothing
+  /// if a curve may pass through the vertex.
+  std::optional<int> crossings_before(const OpenCell& cell, int edge, const Interval& parameter);
 
   /// Makes the cut and records it; false (and no change) if the order of the roots on the line
   /// cannot be proved.
-  bool apply(const OpenCell& cell, Cut cut, OpenCell* negative, OpenCell* positive);
+  bool apply(const OpenCell& cell, Cut* cut, OpenCell* negative, OpenCell* positive);
 
-  /// The curves that may meet the cell: those that cross its boundary or have a critical region in
-  /// it.
-  std::vector<int> alive(const OpenCell& cell) const;
-  /// Boundary crossings of every curve.
-  std::vector<int> crossing_counts(const OpenCell& cell) const;
-  /// The cyclic order of the line crossings, from vertex 0.
-  std::vector<int> word(const OpenCell& cell) const;
   /// About where a line crossing is, and the curve's unit gradient there; heuristics use them.
   struct Spot {
     Point<2> at;
     Point<2> normal;
+    bool known = false;
   };
   const Spot& spot(int line_crossing);
 
-  /// A measure of the cells still to come: branches that no crossing ties together, at least 1.
-  double estimate(const std::vector<int>& counts, const std::vector<int>& crossings) const;
-
-  /// Whether a critical region lies in the interior of the polygon that was opened.
-  bool inside(const CriticalRegion& region);
-
  private:
   bool order_on_line(const Line& line, std::vector<Cut::Root>* roots);
-  std::optional<int> crossings_before(const OpenCell& cell, int edge, const Interval& parameter);
+  void build_child(const OpenCell& cell, const Cut& cut, int first_root, OpenCell* child);
+  std::optional<Sign> side_of(const CriticalRegion& region, const Line& line);
 
   const std::vector<FilteredPolynomial<2>>& curves_;
-  std::vector<std::array<FilteredPolynomial<2>, 2>> partials_;
   Kernel& kernel_;
-  int side_count_ = 0;
-  std::vector<Spot> spots_;  ///< of the first line crossings
+  std::pmr::monotonic_buffer_resource memory_;  ///< of the cells
+  std::vector<Spot> spots_;
 };
 
 /// Whether a line's parameter grows along an edge on it that runs counter-clockwise around a cell
@@ -124,7 +142,7 @@ class Partition {
 /// coefficients.
 bool parameter_grows(const Line& line, bool positive);
 
-/// The midpoint of an enclosure.
-inline Point<2> middle(const std::array<Interval, 2>& at) { return {at[0].mid(), at[1].mid()}; }
+/// The smallest box around the centres of a cell's vertices.
+Box<2> bounds_of(const OpenCell& cell);
 
 }  // namespace encase

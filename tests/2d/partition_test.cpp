@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "2d/partition.hpp"
+#include "2d/cell_at_hand.hpp"
 
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(Partition, DoesNotOpenWhereACurvePassesThroughACorner) {
     for (const Line& side_line : sides) EXPECT_EQ(side(side_line, corner, kernel), Sign::Negative);
   const auto cell = partition.open(sides);
   ASSERT_TRUE(cell.has_value());
-  EXPECT_EQ(partition.word(*cell).size(), 2u);
+  EXPECT_EQ(cell->word.size(), 2u);
 }
 
 TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
@@ -90,16 +90,26 @@ TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
     l.offset = c;
     return l;
   };
-  EXPECT_FALSE(partition.try_line(*cell, line(1, 0, -2), HUGE_VAL));  // misses
-  EXPECT_FALSE(partition.try_line(*cell, line(1, -1, 0), HUGE_VAL));  // through corners
-  EXPECT_FALSE(partition.try_line(*cell, line(3, 0, -1), 0.0));       // not good enough
-  const auto cut = partition.try_line(*cell, line(0, 1, -0.25), HUGE_VAL);
-  ASSERT_TRUE(cut.has_value());
-  EXPECT_EQ(cut->roots.size(), 1u);
+  CellAtHand at_hand(partition);
+  at_hand.take(*cell);
+  at_hand.propose(line(1, 0, -2));
+  EXPECT_FALSE(at_hand.has_cut());  // misses
+  at_hand.propose(line(1, -1, 0));
+  EXPECT_FALSE(at_hand.has_cut());  // through corners
+  at_hand.propose(line(0, 1, -0.25));
+  ASSERT_TRUE(at_hand.has_cut());
+  EXPECT_EQ(at_hand.cut().roots.size(), 1u);
+  const double score = at_hand.cut().score;
+  at_hand.propose(line(0, 1, -0.99));
+  EXPECT_EQ(at_hand.cut().score, score);  // a worse line
+  at_hand.propose(line(3, 0, -2));
+  EXPECT_TRUE(at_hand.cut().roots.empty());  // a better one
+  at_hand.drop_cut();
+  at_hand.propose(line(0, 1, -0.25));
   OpenCell below, above;
-  ASSERT_TRUE(partition.apply(*cell, *cut, &below, &above));
-  EXPECT_EQ(partition.word(below).size(), 2u);
-  EXPECT_EQ(partition.word(above).size(), 2u);
+  ASSERT_TRUE(partition.apply(*cell, &at_hand.cut(), &below, &above));
+  EXPECT_EQ(below.word.size(), 2u);
+  EXPECT_EQ(above.word.size(), 2u);
   EXPECT_EQ(partition.history.size(), 1u);
 }
 

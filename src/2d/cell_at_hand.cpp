@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "2d/cell_at_hand.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace encase {
+namespace {
+
+constexpr int kMaxNodes = 400;  // subdivisions that a chord is worth
+
+// How many cells a cell becomes, fitted to what cells of random curves became: about kPerCrossing
+// for each crossing inside and kPerBranch for each branch; more for a branch that probably no
+// crossing lies on; and fewer in large cells, whose branches inside are shared by more crossings.
+// What all parts of a cell have in common (kPerCrossing) has no influence; that a cell without
+// crossings counts more than its share leaves lines that finish a crossing's cell preferred.
+constexpr double kPerCrossing = 1.8;
+constexpr double kPerBranch = 0.8;
+constexpr double kPerUncrossedBranch = 1.4;
+constexpr double kPerRootOfCrossings = -2;
+constexpr double kWithCrossings = -1.8;
+constexpr double kFinishedCrossing = -0.4;
+constexpr double kFinishedBranch = 1;
+constexpr double kEmpty = 1.5;
+constexpr double kFurtherBranchOfOneCurve = 1;
+constexpr double kFurtherBranchOfCurves = 2;
+
+// What a line is worth besides.
+constexpr double kSliver = 0.045;  // for each halving of the distance to what is closest
+constexpr double kBalance = 0.05;
+
+/// About log2(x), for x > 0: exact at powers of two, linear between.
+double rough_logarithm(double x) {
+  int exponent;
+  const double fraction = std::frexp(x, &exponent);
+  return exponent - 2 + 2 * fraction;
+}
+
+/// If `crossings` crossings fall on `branches` branches at random: how many branches get none.
+double uncrossed(int branches, int crossings) {
+  static const auto table = [] {
+    std::array<std::array<double, 32>, 16> values{};
+    for (int m = 1; m < 16; ++m) {
+      values[m][0] = m;
+      for (int r = 1; r < 32; ++r) values[m][r] = values[m][r - 1] * (1 - 1.0 / m);
+    }
+    return values;
+  }();
+  if (branches > 15) return std::max(0, branches - crossings);
+  return crossings > 31 ? 0.0 : table[branches][crossings];
+}
+
+}  // namespace
+
+CellAtHand::CellAtHand(Partition& partition) : partition_(partition) {
+  slot_.resize(partition.curves().size());
+}
+
+void CellAtHand::take(const OpenCell& cell) {
+  cell_ = &cell;
+  has_points_ = has_cut_ = false;
+  std::fill(slot_.begin(), slot_.end(), cell.zones.empty() ? -1 : 0);
+  const auto& crossings = partition_.line_crossings;
+  for (const int id : cell.word) slot_[crossings[id].curve] = 0;
+  for (const int k : cell.critical_regions) slot_[partition_.critical_regions[k].curve] = 0;
+  whole_.curves.clear();
+  for (std::size_t c = 0; c < slot_.size(); ++c) {
+    if (slot_[c] < 0) continue;
+    slot_[c] = static_cast<int>(whole_.curves.size());
+    whole_.curves.push_back({static_cast<int>(c), 0, 0});
+  }
+  for (const int id : cell.word) ++whole_.curves[slot_[crossings[id].curve]].ends;
+  whole_.crossings = static_cast<int>(cell.crossings.size());
+  crossings_.clear();
+  for (const int id : cell.crossings) {
+    const Crossing& crossing = partition_.crossings[id];
+    crossings_.emplace_back(crossing.box);
+    for (const int c : crossing.curves)
+      if (slot_[c] >= 0) ++whole_.curves[slot_[c]].crossings;
+  }
+  double square = 0;
+  for (const Place& v : cell.vertices) {
+    const double x = v.center[0] - cell.vertices[0].center[0],
+                 y = v.center[1] - cell.vertices[0].center[1];
+    square = std::max(square, x * x + y * y);
+  }
+  extent_ = std::sqrt(square);
+}
+
+const std::vector<CellAtHand::BoundaryPoint>& CellAtHand::points() {
+  if (has_points_) return points_;
+  has_points_ = true;
+  points_.clear();
+  for (Presence& p : parts_[0].curves = whole_.curves) p.ends = 0;
+  for (const int id : cell_->word) {
+    const int c = partition_.line_crossings[id].curve;
+    const Partition::Spot& spot = partition_.spot(id);
+    points_.push_back({c, parts_[0].curves[slot_[c]].ends++, spot.at, spot.normal});
+  }
+  return points_;
+}
+
+double CellAtHand::expected_cells(const Part& part) {
+  int curves = 0, branches = 0;
+  double loose = 0;
+  for (const Presence& p : part.curves) {
+    const int count = (p.ends + 1) / 2;
+    if (count == 0) continue;
+    ++curves;
+    branches += count;
+    loose += uncrossed(count, p.crossings);
+  }
+  if (part.crossings == 0) {
+    if (branches == 0) return kEmpty;
+    const double further = curves == 1 ? kFurtherBranchOfOneCurve : kFurtherBranchOfCurves;
+    return kFinishedBranch + further * (branches - 1);
+  }
+  if (part.crossings == 1 && branches == 2) return kFinishedCrossing;
+  return kPerCrossing * part.crossings + kPerBranch * branches + kPerUncrossedBranch * loose +
+         kPerRootOfCrossings * std::sqrt(part.crossings) + kWithCrossings;
+}
+
+int CellAtHand::least_cells(const Part& part) {
+  // Every crossing needs a cell of its own, and every branch that no crossing of its curve lies on.
+  int total = part.crossings;
+  for (const Presence& p : part.curves)
+    total += std::max(0, (p.ends + 1) / 2 - (p.crossings > 0 ? 1 : 0));
+  return std::max(1, total);
+}
+
+double CellAtHand::score(double slivers) const {
+  const double a = expected_cells(parts_[0]), b = expected_cells(parts_[1]);
+  return a + b + slivers - kBalance * std::min(a, b) / (a + b);
+}
+
+/// The edges where the line enters and leaves, and how close it comes to a vertex.
+bool CellAtHand::cross_boundary(const Line& line, double* clearance) {
+  const int n = cell_->size();
+  sides_.resize(n);
+  for (int k = 0; k < n; ++k) {
+    const Place& vertex = cell_->vertices[k];
+    const LineValue at = value_at(line, vertex);
+    if (std::fabs(at.value) > at.error) {
+      sides_[k] = at.value > 0;
+    } else {
+      const auto s = side(line, vertex.box, partition_.kernel());
+      if (!s) return false;
+      sides_[k] = *s == Sign::Positive;
+    }
+    *clearance = std::min(*clearance, std::fabs(at.value));
+  }
+  trial_.out = trial_.in = -1;
+  for (int k = 0; k < n; ++k) {
+    const bool here = sides_[k], there = sides_[k + 1 < n ? k + 1 : 0];
+    if (here != there) (there ? trial_.out : trial_.in) = k;
+  }
+  return trial_.out >= 0 && trial_.in >= 0;
+}
+
+bool CellAtHand::divide_crossings(const Line& line, double* clearance) {
+  for (Part& part : parts_) {
+    part.curves = whole_.curves;
+    part.crossings = 0;
+    for (Presence& p : part.curves) p.ends = p.crossings = 0;
+  }
+  trial_.positive.resize(crossings_.size());
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    const LineValue at = value_at(line, crossings_[i]);
+    bool positive = at.value > 0;
+    if (!(std::fabs(at.value) > at.error)) {
+      const auto s = side(line, crossings_[i].box, partition_.kernel());
+      if (!s) return false;
+      positive = *s == Sign::Positive;
+    }
+    trial_.positive[i] = positive;
+    *clearance = std::min(*clearance, std::fabs(at.value));
+    ++parts_[positive].crossings;
+    for (const int c : partition_.crossings[cell_->crossings[i]].curves)
+      if (slot_[c] >= 0) ++parts_[positive].curves[slot_[c]].crossings;
+  }
+  for (const int id : cell_->zones)
+    if (!side(line, partition_.zones[id].box, partition_.kernel())) return false;
+  return true;
+}
+
+bool CellAtHand::count_old_crossings(const Line& line) {
+  const auto cut_edge = [&](int edge, Place* vertex, int* word_at) {
+    const Line& other = partition_.lines[cell_->edges[edge].line];
+    *vertex = meeting_place(line, other);
+    if (!vertex->finite()) return false;
+    const auto before =
+        partition_.crossings_before(*cell_, edge, vertex->range(parameter_axis(other)));
+    if (!before) return false;
+    *word_at = cell_->begin_of(edge) + *before;
+    return true;
+  };
+  if (!cut_edge(trial_.out, &trial_.vertex_out, &trial_.word_at_out) ||
+      !cut_edge(trial_.in, &trial_.vertex_in, &trial_.word_at_in))
+    return false;
+  // The boundary is positive from `out` to `in`.
+  const bool wraps = trial_.out > trial_.in;
+  for (int i = 0; i < static_cast<int>(cell_->word.size()); ++i) {
+    const bool after_out = i >= trial_.word_at_out, before_in = i < trial_.word_at_in;
+    const bool positive = wraps ? after_out || before_in : after_out && before_in;
+    ++parts_[positive].curves[slot_[partition_.line_crossings[cell_->word[i]].curve]].ends;
+  }
+  return true;
+}
+
+bool CellAtHand::add_new_crossings(const Line& line, double slivers) {
+  const int axis = parameter_axis(line);
+  Interval from = trial_.vertex_out.range(axis), to = trial_.vertex_in.range(axis);
+  if (!(from.hi < to.lo)) std::swap(from, to);
+  if (!(from.hi < to.lo)) return false;
+  trial_.roots.clear();
+  for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
+    const std::size_t before = trial_.roots.size();
+    if (!partition_.isolate_between(whole_.curves[s].curve, line, from, to, kMaxNodes,
+                                    &trial_.roots))
+      return false;
+    for (Part& part : parts_) {
+      int& ends = part.curves[s].ends;
+      ends += static_cast<int>(trial_.roots.size() - before);
+      // A curve enters a cell as often as it leaves it: a free check of all the above.
+      if (ends % 2 != 0) return false;
+    }
+    if (has_cut_ && !(score(slivers) < best_.score - 1e-9)) return false;
+  }
+  return true;
+}
+
+bool CellAtHand::cuts_well(const Line& line) {
+  const double square = line.normal[0] * line.normal[0] + line.normal[1] * line.normal[1];
+  if (!(square > 1e-200 && square < 1e200) || !std::isfinite(line.offset)) return false;
+  double clearance = HUGE_VAL;
+  if (!cross_boundary(line, &clearance) || !divide_crossings(line, &clearance)) return false;
+  clearance /= std::sqrt(square);
+  const double slivers =
+      kSliver * std::max(0.0, -5 - rough_logarithm(std::max(1e-12, clearance / extent_)));
+  if (!count_old_crossings(line)) return false;
+  // Counts only grow, so this bounds the score before anything is restricted.
+  if (has_cut_ && !(score(slivers) < best_.score - 1e-9)) return false;
+  if (!add_new_crossings(line, slivers)) return false;
+  trial_.score = score(slivers);
+  return true;
+}
+
+void CellAtHand::propose(const Line& line) {
+  ++partition_.lines_tried;
+  if (!cuts_well(line)) return;
+  trial_.line = line;
+  for (int k = 0; k < 2; ++k) trial_.least_cells[k] = least_cells(parts_[k]);
+  std::swap(trial_, best_);
+  has_cut_ = true;
+}
+
+}  // namespace encase

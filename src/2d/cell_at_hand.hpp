@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "2d/partition.hpp"
+
+namespace encase {
+
+/// The open cell that is being worked on, with what trying lines on it needs again and again, and
+/// the best cut found so far. One object serves all cells in turn: once its arrays have grown,
+/// neither a cell nor a line costs an allocation.
+class CellAtHand {
+ public:
+  explicit CellAtHand(Partition& partition);
+
+  /// Turns to another cell, which must outlive this use.
+  void take(const OpenCell& cell);
+
+  Partition& partition() { return partition_; }
+  const OpenCell& cell() const { return *cell_; }
+
+  /// A curve that may meet the cell: it crosses the boundary, has a critical region in the cell, or
+  /// there is a zone.
+  struct Presence {
+    int curve = -1;
+    int ends = 0;       ///< crossings with the boundary
+    int crossings = 0;  ///< crossings with other curves inside
+  };
+  const std::vector<Presence>& curves() const { return whole_.curves; }
+
+  /// The curve that crosses the boundary at a place of the cell's word.
+  int curve_at(int place) const { return partition_.line_crossings[cell_->word[place]].curve; }
+
+  /// A crossing of a curve with the cell's boundary.
+  struct BoundaryPoint {
+    int curve;
+    int index;  ///< among its curve's points, in cyclic order
+    Point<2> at;
+    Point<2> normal;  ///< unit gradient
+  };
+  const std::vector<BoundaryPoint>& points();
+
+  /// The cells to be expected of the whole cell.
+  double expected_cells() const { return expected_cells(whole_); }
+
+  /// Tries a line. It is dropped if it misses the cell, meets a vertex, a crossing box or a zone,
+  /// if the roots on it are not proved, or if the cut is not better than the best.
+  void propose(const Line& line);
+  bool has_cut() const { return has_cut_; }
+  Cut& cut() { return best_; }
+  void drop_cut() { has_cut_ = false; }
+
+ private:
+  struct Part {
+    std::vector<Presence> curves;
+    int crossings = 0;
+  };
+  static double expected_cells(const Part& part);
+  static int least_cells(const Part& part);
+  double score(double slivers) const;
+  bool cross_boundary(const Line& line, double* clearance);
+  bool divide_crossings(const Line& line, double* clearance);
+  bool count_old_crossings(const Line& line);
+  bool add_new_crossings(const Line& line, double slivers);
+  bool cuts_well(const Line& line);
+
+  Partition& partition_;
+  const OpenCell* cell_ = nullptr;
+  Part whole_;
+  std::array<Part, 2> parts_;
+  std::vector<int> slot_;         // of every curve, among those present
+  std::vector<Place> crossings_;  // of the cell
+  double extent_ = 0;
+  std::vector<BoundaryPoint> points_;
+  bool has_points_ = false;
+  std::vector<char> sides_;  // of the vertices
+  Cut trial_, best_;
+  bool has_cut_ = false;
+};
+
+}  // namespace encase
