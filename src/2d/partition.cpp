@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "2d/jets.hpp"
-
 namespace encase {
 namespace {
 
@@ -152,12 +150,12 @@ const Partition::Spot& Partition::spot(int line_crossing) {
   const double start = -line.offset / line.normal[q];
   // Newton's iteration on the line, kept within the root's interval.
   double lo = c.lo, hi = c.hi, t = lo + 0.5 * (hi - lo);
-  ValueAndGradient here{};
+  FilteredPolynomial<2>::ValueAndGradient here{};
   bool rises = false, rises_known = false;
   for (int i = 0; i < 6; ++i) {
     spot.at[p] = t;
     spot.at[q] = slope * t + start;
-    here = value_and_gradient(f, spot.at);
+    here = f.value_and_gradient(spot.at);
     const double rate = here.gradient[p] + slope * here.gradient[q];
     const double step = -here.value / rate;
     if (std::fabs(step) < 1e-4 * (c.hi - c.lo)) break;

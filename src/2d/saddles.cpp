@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "2d/jets.hpp"
-
 namespace encase {
 namespace {
 
 /// A saddle with the directions in which its neighbourhood falls apart; nothing at an extremum.
-std::optional<Saddle> saddle_at(int curve, const Point<2>& at, const SecondOrder& jet) {
+std::optional<Saddle> saddle_at(int curve, const Point<2>& at, const Jet& jet) {
   const double a = jet.xx, b = jet.xy, c = jet.yy;
   if (!(a * c < b * b)) return std::nullopt;
   // The eigenvector whose eigenvalue has the sign of f is the line's direction; the other its
@@ -28,20 +26,19 @@ std::optional<Saddle> saddle_at(int curve, const Point<2>& at, const SecondOrder
 
 void append_saddles(const FilteredPolynomial<2>& f, int curve, const std::vector<Box<2>>& boxes,
                     std::vector<Saddle>* saddles) {
-  const SecondOrderJets jets(f);
   const std::size_t first = saddles->size();
   for (const Box<2>& box : boxes) {
     const Point<2> center = box.center();
     const double allowed = 0.75 * box.largest_width();
     Point<2> at = center;
     bool converged = false;
-    SecondOrder jet;
+    Jet jet;
     for (int i = 0; i < 5 && !converged; ++i) {
-      jet = jets.at(at);
+      jet = f.jet(at);
       const double determinant = jet.xx * jet.yy - jet.xy * jet.xy;
       if (!(determinant < 0)) break;
-      const Point<2> step{(jet.x * jet.yy - jet.y * jet.xy) / determinant,
-                          (jet.y * jet.xx - jet.x * jet.xy) / determinant};
+      const Point<2> step{(jet.gradient[0] * jet.yy - jet.gradient[1] * jet.xy) / determinant,
+                          (jet.gradient[1] * jet.xx - jet.gradient[0] * jet.xy) / determinant};
       at = {at[0] - step[0], at[1] - step[1]};
       if (!(std::fabs(at[0] - center[0]) < allowed && std::fabs(at[1] - center[1]) < allowed))
         break;

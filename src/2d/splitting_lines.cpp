@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "2d/jets.hpp"
-
 namespace encase {
 namespace {
 
@@ -166,7 +164,7 @@ bool SplittingLines::approach(BoundaryPoint* a, BoundaryPoint* b) const {
     p->at[0] += -p->normal[1] * step;
     p->at[1] += p->normal[0] * step;
     for (int i = 0; i < 2; ++i) {
-      const auto [value, g] = value_and_gradient(f, p->at);
+      const auto [value, g] = f.value_and_gradient(p->at);
       const double square = dot(g, g);
       if (!(square > 0)) return false;
       p->normal = unit(g);
@@ -251,7 +249,7 @@ void SplittingLines::propose_refinement() {
   // Newton's iteration along the bisector.
   double t = 0;
   for (int i = 0; i < 8; ++i) {
-    const auto [value, gradient] = value_and_gradient(f, at(t));
+    const auto [value, gradient] = f.value_and_gradient(at(t));
     const double slope = dot(gradient, across);
     if (!(std::fabs(slope) > 0)) return;
     t -= value / slope;
