@@ -96,16 +96,13 @@ TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
   EXPECT_FALSE(at_hand.has_cut());  // misses
   at_hand.propose(line(1, -1, 0));
   EXPECT_FALSE(at_hand.has_cut());  // through corners
-  at_hand.propose(line(0, 1, -0.25));
-  ASSERT_TRUE(at_hand.has_cut());
-  EXPECT_EQ(at_hand.cut().roots.size(), 1u);
-  const double score = at_hand.cut().score;
-  at_hand.propose(line(0, 1, -0.99));
-  EXPECT_EQ(at_hand.cut().score, score);  // a worse line
   at_hand.propose(line(3, 0, -2));
-  EXPECT_TRUE(at_hand.cut().roots.empty());  // a better one
-  at_hand.drop_cut();
+  ASSERT_TRUE(at_hand.has_cut());  // a part that no curve meets
+  EXPECT_TRUE(at_hand.cut().roots.empty());
   at_hand.propose(line(0, 1, -0.25));
+  EXPECT_EQ(at_hand.cut().roots.size(), 1u);  // a better line
+  at_hand.propose(line(0, 1, -0.99));
+  EXPECT_EQ(at_hand.cut().line.offset, -0.25);  // a worse one, close to vertices
   OpenCell below, above;
   ASSERT_TRUE(partition.apply(*cell, &at_hand.cut(), &below, &above));
   EXPECT_EQ(below.word.size(), 2u);
