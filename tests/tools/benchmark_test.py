@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from xml.etree import ElementTree
 
 BENCHMARK = None
 SHORT = ("--degrees", "2,3", "--seeds", "1", "--repeat", "1")
@@ -106,6 +107,40 @@ class ShortRun(unittest.TestCase):
                          self.tables["pairs"][0]["encasement"])
 
 
+class Chapter5(unittest.TestCase):
+    def test_writes_every_figure_as_data_and_picture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            plots = os.path.join(folder, "new", "plots")
+            run = benchmark("chapter5", "-o", plots, *SHORT)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with_cgal = "without CGAL" not in run.stdout
+            for figure in range(3, 13):
+                name = os.path.join(plots, f"figure-5.{figure}")
+                if not with_cgal and figure in (4, 6, 8, 10, 11):
+                    self.assertFalse(os.path.exists(name + ".svg"))
+                    continue
+                root = ElementTree.parse(name + ".svg").getroot()
+                texts = [e.text for e in root.iter("{http://www.w3.org/2000/svg}text")]
+                self.assertIn("degree", texts)
+                self.assertTrue(any(f"(5.{figure})" in text for text in texts))
+                with open(name + ".csv", newline="") as file:
+                    rows = list(csv.reader(file))
+                self.assertEqual([row[0] for row in rows], ["degree", "2", "3"])
+                for row in rows[1:]:
+                    self.assertTrue(all(float(entry) > 0 for entry in row if entry), row)
+                if figure == 9:
+                    self.assertEqual(rows[0], ["degree", "encasement", "CGAL"])
+                    self.assertTrue(rows[2][1])
+                    self.assertEqual(bool(rows[2][2]), with_cgal)
+                if figure == 12:
+                    self.assertEqual(len(rows[0]), 6)
+
+    def test_a_directory_that_cannot_be_made_is_an_error(self):
+        run = benchmark("chapter5", "-o", "/dev/null/plots", *SHORT)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("/dev/null/plots", run.stderr)
+
+
 class Usage(unittest.TestCase):
     def refused(self, *arguments):
         run = benchmark(*arguments)
@@ -117,6 +152,7 @@ class Usage(unittest.TestCase):
     def test_unknown_options_and_values_are_refused(self):
         self.assertIn("--help", self.refused("--fast-and-loose"))
         self.assertIn("--degrees", self.refused("--degrees", "61"))
+        self.assertIn("-o", self.refused("chapter5"))
         self.assertIn("--only", self.refused("--only", "nothing"))
         self.assertIn("--curves", self.refused("--curves", "/no/such/directory"))
 

@@ -5,13 +5,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <thread>
 
+#include "chapter5.hpp"
 #include "encase/atomic_file.hpp"
 #include "newton_floor.hpp"
 #include "tables.hpp"
@@ -122,6 +125,14 @@ encase::Status write_outputs(const Outputs& outputs, const std::vector<Table>& t
   return encase::write_file(outputs.markdown, text);
 }
 
+/// Degrees 2 to 20, unless others were asked for.
+Request chapter5_request(Request request, bool default_degrees) {
+  if (!default_degrees) return request;
+  request.degrees.resize(19);
+  std::iota(request.degrees.begin(), request.degrees.end(), 2);
+  return request;
+}
+
 /// Prints every table as soon as it is measured.
 std::vector<Table> measure(RandomPairs& pairs, const Request& request,
                            const std::vector<std::string>& only) {
@@ -149,6 +160,14 @@ int main(int argc, char** argv) {
   Outputs outputs;
   std::vector<std::string> only;
   add_options(app, request, outputs, only);
+  const CLI::App* tables =
+      app.add_subcommand("tables", "print the tables; so does no subcommand")->fallthrough();
+  CLI::App* chapter5 = app.add_subcommand("chapter5", "draw figures 5.3 to 5.12 of the thesis");
+  std::string directory;
+  chapter5->fallthrough();
+  chapter5->add_option("-o", directory, "write the plots and their data here")
+      ->type_name("DIR")
+      ->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -159,8 +178,12 @@ int main(int argc, char** argv) {
     if (cgal_version().empty()) request.cgal_degrees = 0;
     fmt::print("{}\n", machine());
     RandomPairs pairs(request.repetitions);
-    if (const auto status = write_outputs(outputs, measure(pairs, request, only)))
-      return fail(status->message);
+    encase::Status status;
+    if (*tables || !*chapter5) status = write_outputs(outputs, measure(pairs, request, only));
+    if (!status && *chapter5)
+      status =
+          write_chapter5(pairs, chapter5_request(request, app.count("--degrees") == 0), directory);
+    if (status) return fail(status->message);
   } catch (const std::exception& e) {
     return fail(e.what());
   }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "pair_figures.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "common/isolate_roots.hpp"
 #include "common/random_polynomials.hpp"
@@ -49,6 +53,11 @@ void measure_floor(const std::vector<NamedCurve>& pair, const std::vector<Crossi
     points = starts;
     newton_steps_together(f, g, points);
   });
+}
+
+/// Tells a person who waits at a terminal what takes so long.
+void announce(const std::string& text) {
+  if (isatty(STDERR_FILENO)) fmt::print(stderr, "{}\n", text);
 }
 
 CgalFigures median_of(const std::vector<CgalFigures>& runs) {
@@ -131,6 +140,7 @@ const CgalFigures& RandomPairs::cgal(int degree, std::uint64_t seed) {
   if (!is_new) return place->second;
   const auto pair = random_pair(degree, seed);
   const Box<2> box = unit_region().bounding_box();
+  announce(fmt::format("CGAL, degree {}, seed {}", degree, seed));
   std::vector<CgalFigures> runs;
   const auto run = [&] { runs.push_back(run_cgal(pair[0].polynomial, pair[1].polynomial, box)); };
   run();

@@ -47,7 +47,7 @@ std::string to_string(Outcome outcome);
 struct Stages {
   double curves = 0;       ///< sanity and critical regions: what is found of each curve alone
   double roots = 0;        ///< the polygon, all crossings, the splitting, the certificates
-  double coordinates = 0;  ///< both coordinates of every crossing to 2^-53
+  double coordinates = 0;  ///< to 2^-53, where the encasement does not know them so well
   double total() const { return curves + roots + coordinates; }
 };
 

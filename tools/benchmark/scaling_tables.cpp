@@ -61,7 +61,7 @@ Region square_around(const Point<2>& crossing, double side) {
   return make_region(lo[0], lo[0] + width, lo[1], lo[1] + width).value();
 }
 
-double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+PowerLaw fitted_power_law(const std::vector<double>& x, const std::vector<double>& y) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   const auto n = static_cast<double>(x.size());
   for (std::size_t k = 0; k < x.size(); ++k) {
@@ -71,7 +71,8 @@ double fitted_exponent(const std::vector<double>& x, const std::vector<double>& 
     sxx += u * u;
     sxy += u * v;
   }
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  const double exponent = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  return {std::exp((sy - exponent * sx) / n), exponent};
 }
 
 Table locality_table(const Request& request) {
@@ -119,7 +120,7 @@ Table growth_table(RandomPairs& pairs, const Request& request) {
   table.title = "The time per crossing";
   if (degrees.size() > 1)
     table.title += fmt::format(": it grows like the degree to the power of {:.2f}",
-                               fitted_exponent(degrees, costs));
+                               fitted_power_law(degrees, costs).exponent);
   return table;
 }
 

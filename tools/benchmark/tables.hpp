@@ -44,7 +44,11 @@ Table memory_table(const Request& request);
 Region square_around(const Point<2>& crossing, double side);
 /// The crossing nearest to the origin.
 Point<2> central_crossing(const Encasement& encasement);
-/// The least-squares fit of b in y = a x^b.
-double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
+/// y = factor x^exponent.
+struct PowerLaw {
+  double factor, exponent;
+};
+/// The one that fits best, by least squares of the logarithms. At least two points.
+PowerLaw fitted_power_law(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace encase::benchmark
