@@ -76,6 +76,9 @@ class ShortRun(unittest.TestCase):
         self.assertEqual(rows["degenerate_cusp_vs_y0"]["outcome"], "degenerate")
         for k in range(7, 13):
             self.assertEqual(rows[f"cxy_{k}"]["outcome"], "certified")
+        # One oval; two branches; five crossings.
+        for name, least in (("linyap_1", 2), ("y2_close_lines", 2), ("haas_drrs_sparse", 5)):
+            self.assertEqual(rows[name]["least"], least, name)
 
     def test_near_tangencies_include_the_parabolas(self):
         rows = {row["curves"]: row for row in self.tables["near tangencies"]}

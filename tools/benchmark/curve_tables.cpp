@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
+#include "branch_census.hpp"
 #include "encase/curves_file.hpp"
 #include "tables.hpp"
 
@@ -19,9 +21,9 @@ struct Example {
   bool relaxed = false;
 };
 
-const std::vector<std::string> kColumns{"curves",  "setting",    "outcome",
-                                        "ms",      "crossings",  "cells",
-                                        "relaxed", "degenerate", "MPFR expansions"};
+const std::vector<std::string> kColumns{"curves",     "setting",        "outcome", "ms",
+                                        "crossings",  "cells",          "least",   "relaxed",
+                                        "degenerate", "MPFR expansions"};
 
 std::vector<Value> row_of(const std::string& name, const std::string& setting,
                           const TimedEncasement& timed) {
@@ -29,12 +31,15 @@ std::vector<Value> row_of(const std::string& name, const std::string& setting,
   const auto relaxed = std::count_if(r.cells.begin(), r.cells.end(), [](const Cell& cell) {
     return cell.state == CellState::Relaxed;
   });
+  Value least;
+  if (timed.certified()) least = std::int64_t{least_cells(r)};
   return {name,
           setting,
           to_string(r.outcome),
           kMilli * timed.seconds,
           static_cast<std::int64_t>(r.crossings.size()),
           static_cast<std::int64_t>(r.cells.size()),
+          std::move(least),
           static_cast<std::int64_t>(relaxed),
           static_cast<std::int64_t>(r.degenerate.size()),
           r.statistics.mpfr_expansions};
@@ -66,10 +71,9 @@ Table files_table(const Request& request) {
   for (const auto& path : paths) {
     const CurvesFile file = load_curves(path.string()).value();
     for (const Setting& setting : settings())
-      table.rows.push_back(
-          row_of(path.stem().string(), setting.name,
-                 timed_encasement(file.curves, file.region ? *file.region : unit_region(),
-                                  setting.options, request.repetitions)));
+      table.add(row_of(path.stem().string(), setting.name,
+                       timed_encasement(file.curves, file.region ? *file.region : unit_region(),
+                                        setting.options, request.repetitions)));
   }
   return table;
 }
@@ -84,9 +88,9 @@ Table near_tangency_table(const Request& request) {
       curves.push_back({text, parse_polynomial(text).value()});
     for (Setting setting : settings()) {
       setting.options.relaxed = example.relaxed;
-      table.rows.push_back(row_of(example.name + (example.relaxed ? ", relaxed" : ""), setting.name,
-                                  timed_encasement(curves, parse_region(example.region).value(),
-                                                   setting.options, request.repetitions)));
+      table.add(row_of(example.name + (example.relaxed ? ", relaxed" : ""), setting.name,
+                       timed_encasement(curves, parse_region(example.region).value(),
+                                        setting.options, request.repetitions)));
     }
   }
   return table;

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <numeric>
 #include <string>
@@ -54,26 +54,20 @@ int fail(const std::string& message) {
   return 1;
 }
 
-std::string processor() {
-  std::string name = "unknown processor";
-  if (std::FILE* file = std::fopen("/proc/cpuinfo", "r")) {
-    char line[512];
-    while (std::fgets(line, sizeof line, file)) {
-      const std::string text = line;
-      if (text.rfind("model name", 0) != 0) continue;
-      name = text.substr(text.find(':') + 2);
-      name.erase(name.find_last_not_of('\n') + 1);
-      break;
-    }
-    std::fclose(file);
-  }
-  return name;
+/// What Linux says about the processor under a name like "model name".
+std::string processor(const std::string& name) {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind(name + "\t", 0) == 0) return line.substr(line.find(':') + 2);
+  return "?";
 }
 
 std::string machine() {
   const std::string cgal = cgal_version();
-  return fmt::format("{}, {} cores, one used; {}; compiler {}; {}", processor(),
-                     std::thread::hardware_concurrency(), vector_instructions(), __VERSION__,
+  return fmt::format("{} (family {}, model {}), {} MHz, {} cores, one used; {}; compiler {}; {}",
+                     processor("model name"), processor("cpu family"), processor("model"),
+                     processor("cpu MHz"), std::thread::hardware_concurrency(),
+                     vector_instructions(), __VERSION__,
                      cgal.empty() ? "without CGAL" : "CGAL " + cgal);
 }
 

@@ -112,18 +112,17 @@ Table floors_table(RandomPairs& pairs, const Request& request) {
         return over_seeds(request,
                           [&](std::uint64_t seed) { return of(pairs.ours(degree, seed)); });
       };
-      table.rows.push_back(
-          {std::int64_t{degree}, crossings_of(pairs, request, degree, s),
-           kMicro * figure([](const PairFigures& p) { return p.floor; }),
-           kMicro * figure([](const PairFigures& p) { return p.floor_together; }),
-           kMicro * figure([](const PairFigures& p) { return p.isolation; }),
-           figure([](const PairFigures& p) { return p.isolation / p.floor; }),
-           kMicro * figure([](const PairFigures& p) { return p.isolation_with_setup; }),
-           figure([](const PairFigures& p) { return p.isolation_with_setup / p.floor; }),
-           list[s].name,
-           kMilli * figure([s](const PairFigures& p) { return p.encasements[s].seconds; }),
-           figure([s](const PairFigures& p) { return p.encasements[s].seconds / p.floor; }),
-           outcomes_of(pairs, request, degree, s)});
+      table.add({std::int64_t{degree}, crossings_of(pairs, request, degree, s),
+                 kMicro * figure([](const PairFigures& p) { return p.floor; }),
+                 kMicro * figure([](const PairFigures& p) { return p.floor_together; }),
+                 kMicro * figure([](const PairFigures& p) { return p.isolation; }),
+                 figure([](const PairFigures& p) { return p.isolation / p.floor; }),
+                 kMicro * figure([](const PairFigures& p) { return p.isolation_with_setup; }),
+                 figure([](const PairFigures& p) { return p.isolation_with_setup / p.floor; }),
+                 list[s].name,
+                 kMilli * figure([s](const PairFigures& p) { return p.encasements[s].seconds; }),
+                 figure([s](const PairFigures& p) { return p.encasements[s].seconds / p.floor; }),
+                 outcomes_of(pairs, request, degree, s)});
     }
   return table;
 }
@@ -158,7 +157,7 @@ Table work_table(RandomPairs& pairs, const Request& request) {
         row.push_back(over_seeds(request, [&, member = rung](auto seed) {
           return static_cast<double>(result(seed).statistics.decisions.*member);
         }));
-      table.rows.push_back(std::move(row));
+      table.add(std::move(row));
     }
   return table;
 }
@@ -178,7 +177,7 @@ Table cgal_table(RandomPairs& pairs, const Request& request) {
              over_seeds(request, [&](std::uint64_t seed) { return of(pairs.cgal(degree, seed)); });
     };
     for (std::size_t s = 0; s < list.size(); ++s)
-      table.rows.push_back(
+      table.add(
           {std::int64_t{degree}, crossings_of(pairs, request, degree, s),
            counts_over_seeds(request,
                              [&](auto seed) { return pairs.cgal(degree, seed).roots_in_box; }),
@@ -226,7 +225,7 @@ Table every_pair_table(RandomPairs& pairs, const Request& request) {
           row.insert(row.end(), {c->curves, c->solve, c->coordinates, std::int64_t{c->roots_in_box},
                                  std::int64_t{c->roots}});
         row.resize(table.columns.size());
-        table.rows.push_back(std::move(row));
+        table.add(std::move(row));
       }
   return table;
 }

@@ -36,6 +36,24 @@ long memory_of(Run run) {
   return usage.ru_maxrss;
 }
 
+struct SquareSeries {
+  std::vector<double> sides;  ///< descending; the first is the whole of [-1,1]^2
+  std::vector<TimedEncasement> encasements;
+};
+
+SquareSeries squares(int degree, std::uint64_t seed, const Request& request) {
+  const auto pair = random_pair(degree, seed);
+  const EncaseOptions options;
+  const Point<2> center = central_crossing(encase(pair, unit_region(), options).value());
+  SquareSeries series;
+  for (double side = 2; side > 0.01; side /= 2) {
+    series.sides.push_back(side);
+    series.encasements.push_back(
+        timed_encasement(pair, square_around(center, side), options, request.repetitions));
+  }
+  return series;
+}
+
 }  // namespace
 
 Point<2> central_crossing(const Encasement& encasement) {
@@ -76,28 +94,28 @@ PowerLaw fitted_power_law(const std::vector<double>& x, const std::vector<double
 }
 
 Table locality_table(const Request& request) {
-  Table table{
-      "locality",
-      "Ever smaller squares around a crossing",
-      {"degree", "seed", "side", "crossings", "cells", "ms", "part of the whole", "outcome"},
-      {}};
+  Table table{"locality",
+              "Ever smaller squares around a crossing",
+              {"degree", "side", "crossings", "cells", "ms", "part of the whole", "certified"},
+              {}};
   for (const int degree : {10, 15}) {
     if (degree > highest_degree(request)) continue;
-    for (const std::uint64_t seed : request.seeds) {
-      const auto pair = random_pair(degree, seed);
-      const EncaseOptions options;
-      const Point<2> center = central_crossing(encase(pair, unit_region(), options).value());
-      double whole = 0;
-      for (double side = 2; side > 0.01; side /= 2) {
-        const TimedEncasement timed =
-            timed_encasement(pair, square_around(center, side), options, request.repetitions);
-        if (side == 2) whole = timed.seconds;
-        table.rows.push_back({std::int64_t{degree}, static_cast<std::int64_t>(seed), side,
-                              static_cast<std::int64_t>(timed.result.crossings.size()),
-                              static_cast<std::int64_t>(timed.result.cells.size()),
-                              kMilli * timed.seconds, timed.seconds / whole,
-                              to_string(timed.result.outcome)});
+    std::vector<SquareSeries> all;
+    for (const std::uint64_t seed : request.seeds) all.push_back(squares(degree, seed, request));
+    for (std::size_t k = 0; k < all.front().sides.size(); ++k) {
+      std::vector<int> crossings, cells;
+      std::vector<double> seconds, parts;
+      std::int64_t certified = 0;
+      for (const SquareSeries& series : all) {
+        const TimedEncasement& timed = series.encasements[k];
+        crossings.push_back(static_cast<int>(timed.result.crossings.size()));
+        cells.push_back(static_cast<int>(timed.result.cells.size()));
+        seconds.push_back(timed.seconds);
+        parts.push_back(timed.seconds / series.encasements.front().seconds);
+        certified += timed.certified() ? 1 : 0;
       }
+      table.add({std::int64_t{degree}, all.front().sides[k], span_of(crossings), span_of(cells),
+                 kMilli * median(seconds), median(parts), certified});
     }
   }
   return table;
@@ -115,7 +133,7 @@ Table growth_table(RandomPairs& pairs, const Request& request) {
     }
     degrees.push_back(degree);
     costs.push_back(kMicro * median(values));
-    table.rows.push_back({std::int64_t{degree}, costs.back()});
+    table.add({std::int64_t{degree}, costs.back()});
   }
   table.title = "The time per crossing";
   if (degrees.size() > 1)
@@ -136,7 +154,7 @@ Table memory_table(const Request& request) {
   std::vector<Value> row{std::int64_t{degree}, {}, {}};
   if (after >= 0) row[1] = static_cast<double>(after) / 1024;
   if (before >= 0) row[2] = static_cast<double>(before) / 1024;
-  table.rows.push_back(std::move(row));
+  table.add(std::move(row));
   return table;
 }
 

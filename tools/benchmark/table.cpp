@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
 
 namespace encase::benchmark {
 namespace {
@@ -53,6 +55,11 @@ bool is_text(const Table& table, std::size_t column) {
 }
 
 }  // namespace
+
+void Table::add(std::vector<Value> row) {
+  if (row.size() != columns.size()) throw std::logic_error("table " + name + ": a row's length");
+  rows.push_back(std::move(row));
+}
 
 std::string to_text(const Table& table) {
   std::vector<std::size_t> widths;

@@ -17,6 +17,9 @@ struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<Value>> rows;  ///< each as long as `columns`
   bool printed = true;                   ///< false: only in the CSV and JSON files
+
+  /// Throws std::logic_error if the row is not as long as `columns`.
+  void add(std::vector<Value> row);
 };
 
 /// With columns as wide as needed, numbers to three digits.

@@ -32,7 +32,7 @@ Table files_table(const Request& request);
 /// Curves that nearly touch, at a point or along their whole length.
 Table near_tangency_table(const Request& request);
 
-/// Ever smaller boxes around a crossing (thesis 5.3).
+/// Ever smaller squares around a crossing (thesis 5.3); figures are medians over the seeds.
 Table locality_table(const Request& request);
 /// The time per crossing against the degree, and the exponent that fits it.
 Table growth_table(RandomPairs& pairs, const Request& request);
