@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ using Exponent = std::array<int, D>;
 inline constexpr int kMaxDegree = 60;
 
 /// An exact polynomial in D variables with rational coefficients: a sum of terms with different
-/// exponents and non-zero coefficients, in ascending lexicographic order of the exponents.
+/// exponents and non-zero coefficients, in ascending lexicographic order of the exponents. A value:
+/// copies share the terms, which never change.
 template <int D>
 class Polynomial {
  public:
@@ -33,11 +35,11 @@ class Polynomial {
   static Polynomial constant(const Rational& value);
   static Polynomial variable(int axis);
 
-  const std::vector<Term>& terms() const { return terms_; }
-  bool is_zero() const { return terms_.empty(); }
+  const std::vector<Term>& terms() const;
+  bool is_zero() const { return !shared_; }
   bool is_constant() const { return degree() <= 0; }
   /// Total degree; -1 for zero.
-  int degree() const;
+  int degree() const { return shared_ ? shared_->degree : -1; }
   /// Degree in one variable; -1 for zero.
   int degree(int axis) const;
 
@@ -49,13 +51,22 @@ class Polynomial {
   Polynomial power(int exponent) const;
   Polynomial derivative(int axis) const;
   Rational operator()(const RationalPoint<D>& point) const;
-  bool operator==(const Polynomial&) const = default;
+  bool operator==(const Polynomial& other) const {
+    return shared_ == other.shared_ || terms() == other.terms();
+  }
 
   /// A text the parser reads back to the same polynomial, in x, y, z; highest terms first.
   std::string to_string() const;
 
  private:
-  std::vector<Term> terms_;
+  /// Takes terms that are as they shall be.
+  static Polynomial from_ordered(std::vector<Term> terms);
+
+  struct Shared {
+    std::vector<Term> terms;
+    int degree = 0;
+  };
+  std::shared_ptr<const Shared> shared_;  ///< none for zero
 };
 
 extern template class Polynomial<1>;

@@ -4,7 +4,6 @@
 #include <flint/fmpz_mpoly_factor.h>
 #include <flint/fmpz_poly.h>
 #include <flint/nmod_poly.h>
-#include <flint/nmod_poly_factor.h>
 #include <flint/ulong_extras.h>
 
 #include <algorithm>
@@ -14,14 +13,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/modular_line.hpp"
 #include "flint_polynomial.hpp"
 
 namespace encase {
 
 namespace {
-
-/// 2^61 - 1.
-constexpr ulong kPrime = (ulong{1} << 61) - 1;
 
 class ModularPoly {
  public:
@@ -76,68 +73,6 @@ class IntegerPoly {
  private:
   fmpz_poly_t value_;
 };
-
-/// The coefficients modulo the prime, in the order of the terms; nothing if it divides a
-/// denominator.
-std::optional<std::vector<ulong>> reduce(const Polynomial<2>& f, const nmod_t& mod) {
-  const std::size_t n = f.terms().size();
-  // All denominators are inverted at the price of one: inverse[k] = product of those up to k,
-  // first.
-  std::vector<ulong> coefficient(n), denominator(n), product(n + 1, 1);
-  for (std::size_t k = 0; k < n; ++k) {
-    const Rational& c = f.terms()[k].coefficient;
-    coefficient[k] = mpz_fdiv_ui(c.get_num_mpz_t(), mod.n);
-    denominator[k] = c.get_den() == 1 ? 1 : mpz_fdiv_ui(c.get_den_mpz_t(), mod.n);
-    product[k + 1] = nmod_mul(product[k], denominator[k], mod);
-  }
-  if (product[n] == 0) return std::nullopt;
-  ulong inverse = nmod_inv(product[n], mod);
-  for (std::size_t k = n; k-- > 0;) {
-    coefficient[k] = nmod_mul(coefficient[k], nmod_mul(inverse, product[k], mod), mod);
-    inverse = nmod_mul(inverse, denominator[k], mod);
-  }
-  return coefficient;
-}
-
-/// f on the line t -> (3 + 5 t, 7 + u t) modulo kPrime, for a fixed u that no one has reason to
-/// avoid; false if the restriction's degree is less than f's or kPrime divides a denominator.
-bool restrict_to_line(const Polynomial<2>& f, ModularPoly* restriction) {
-  nmod_t mod;
-  nmod_init(&mod, kPrime);
-  const auto coefficient = reduce(f, mod);
-  if (!coefficient) return false;
-  constexpr ulong kSlope = 1234567890123456789;
-  const int degree = f.degree();
-  const std::size_t points = static_cast<std::size_t>(degree) + 1;
-  std::vector<ulong> parameter(points), value(points), x_power(points), y_power(points);
-  for (std::size_t k = 0; k < points; ++k) {
-    const ulong t = parameter[k] = k;
-    const ulong x = nmod_add(3, nmod_mul(5, t, mod), mod);
-    const ulong y = nmod_add(7, nmod_mul(kSlope, t, mod), mod);
-    x_power[0] = y_power[0] = 1;
-    for (std::size_t e = 1; e < points; ++e) {
-      x_power[e] = nmod_mul(x_power[e - 1], x, mod);
-      y_power[e] = nmod_mul(y_power[e - 1], y, mod);
-    }
-    ulong sum = 0;
-    for (std::size_t j = 0; j < f.terms().size(); ++j) {
-      const auto& e = f.terms()[j].exponent;
-      const ulong monomial = nmod_mul(x_power[static_cast<std::size_t>(e[0])],
-                                      y_power[static_cast<std::size_t>(e[1])], mod);
-      sum = nmod_add(sum, nmod_mul((*coefficient)[j], monomial, mod), mod);
-    }
-    value[k] = sum;
-  }
-  nmod_poly_interpolate_nmod_vec(*restriction, parameter.data(), value.data(),
-                                 static_cast<slong>(points));
-  return nmod_poly_degree(*restriction) == degree;
-}
-
-bool coprime(const ModularPoly& r, const ModularPoly& s) {
-  ModularPoly common(kPrime);
-  nmod_poly_gcd(common, r, s);
-  return nmod_poly_degree(common) == 0;
-}
 
 /// FLINT reports failure only for exponents beyond a machine word, far above kMaxDegree.
 void require(int success) {
@@ -242,19 +177,18 @@ class Refinement {
 // deg H| = deg H > 0, and H| divides r and the restriction of g (which may be of any degree).
 std::vector<BaseElement<2>> coprime_square_free_base(const std::vector<Polynomial<2>>& inputs) {
   const std::size_t n = inputs.size();
-  std::vector<std::unique_ptr<ModularPoly>> restriction(n);
-  std::vector<char> kept(n), simple(n);
+  std::vector<std::optional<ModularPolynomial>> restriction(n);  // that keep the degree
+  std::vector<char> simple(n);
   for (std::size_t i = 0; i < n; ++i) {
-    restriction[i] = std::make_unique<ModularPoly>(kPrime);
     if (inputs[i].is_constant()) continue;
-    kept[i] = restrict_to_line(inputs[i], restriction[i].get());
-    simple[i] = kept[i] && nmod_poly_is_squarefree(*restriction[i]);
+    restriction[i] = restrict_modulo_prime(inputs[i]);
+    simple[i] = restriction[i] && square_free(*restriction[i]);
   }
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j) {
       if (inputs[i].is_constant() || inputs[j].is_constant()) continue;
       if (!simple[i] && !simple[j]) continue;
-      if (kept[i] && kept[j] && coprime(*restriction[i], *restriction[j])) continue;
+      if (restriction[i] && restriction[j] && coprime(*restriction[i], *restriction[j])) continue;
       simple[i] = simple[j] = false;
     }
 

@@ -2,13 +2,12 @@
 #include "common/filtered_polynomial.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>
-#include <optional>
 
+#include "common/dyadic.hpp"
 #include "common/interval.hpp"
 #include "common/mpfr_number.hpp"
 #include "common/vectorized.hpp"
@@ -172,38 +171,6 @@ std::vector<double> round_all(const std::vector<Number>& values, double* error) 
   }
 }
 
-/// The bits of a positive integer. (mpz_sizeinbase is a call with a table.)
-long bit_length(mpz_srcptr value) {
-  const long limbs = mpz_size(value);
-  return limbs == 0
-             ? 0
-             : GMP_NUMB_BITS * (limbs - 1) + std::bit_width(mpz_limbs_read(value)[limbs - 1]);
-}
-
-bool is_power_of_two(mpz_srcptr value) {
-  const mp_limb_t* limbs = mpz_limbs_read(value);
-  const std::size_t top = mpz_size(value) - 1;
-  return std::has_single_bit(limbs[top]) &&
-         std::all_of(limbs, limbs + top, [](mp_limb_t limb) { return limb == 0; });
-}
-
-/// 2^exponent, which must be normal.
-double power_of_two(long exponent) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
-}
-
-/// value * 2^exponent, if it is a normal double that is recognised without much ado.
-std::optional<double> as_double(const Rational& value, long exponent) {
-  const mpz_srcptr numerator = value.get_num_mpz_t(), denominator = value.get_den_mpz_t();
-  if (mpz_size(numerator) != 1 || !is_power_of_two(denominator)) return std::nullopt;
-  const mp_limb_t digits = mpz_limbs_read(numerator)[0];
-  exponent -= bit_length(denominator) - 1;
-  if (std::bit_width(digits) - std::countr_zero(digits) > 53 || std::labs(exponent) > 900)
-    return std::nullopt;
-  const double magnitude = static_cast<double>(digits) * power_of_two(exponent);
-  return mpz_sgn(numerator) < 0 ? -magnitude : magnitude;
-}
-
 }  // namespace
 
 template <int D>
@@ -238,7 +205,7 @@ FilteredPolynomial<D>::FilteredPolynomial(Polynomial<D> exact)
 
 template <int D>
 void FilteredPolynomial<D>::set_coefficient(std::size_t index, const Rational& exact) {
-  if (const auto quick = as_double(exact, -static_cast<long>(exponent_))) {
+  if (const auto quick = quick_double(exact, -static_cast<long>(exponent_))) {
     coefficients_[index] = *quick;
   } else {
     const Rational value = scaled(exact);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "common/dyadic.hpp"
+
 namespace encase {
 
 template <int D>
@@ -10,9 +12,13 @@ Hyperplane<D> Hyperplane<D>::from_rationals(const std::array<Rational, D + 1>& c
   Hyperplane h;
   bool exact = true;
   for (int i = 0; i <= D; ++i) {
-    const double rounded = nearest_double(coefficients[i]);
-    exact = exact && std::isfinite(rounded) && Rational(rounded) == coefficients[i];
-    (i < D ? h.normal[i] : h.offset) = rounded;
+    double& rounded = i < D ? h.normal[i] : h.offset;
+    if (const auto quick = quick_double(coefficients[i])) {
+      rounded = *quick;
+    } else {
+      rounded = nearest_double(coefficients[i]);
+      exact = exact && std::isfinite(rounded) && Rational(rounded) == coefficients[i];
+    }
   }
   if (!exact) h.rational = std::make_shared<const std::array<Rational, D + 1>>(coefficients);
   return h;

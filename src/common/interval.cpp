@@ -3,9 +3,12 @@
 
 #include <mpfr.h>
 
+#include "common/dyadic.hpp"
+
 namespace encase {
 
 Interval Interval::enclose(const Rational& value) {
+  if (const auto exact = quick_double(value)) return *exact;
   // Doubles are among the 53-bit numbers, so rounding twice in one direction rounds once.
   mpfr_t rounded;
   mpfr_init2(rounded, 53);

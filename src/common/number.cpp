@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "common/dyadic.hpp"
 #include "common/interval.hpp"
 
 namespace encase {
@@ -71,6 +72,7 @@ bool parse_rational(const char* text, Rational* value) {
 }
 
 double nearest_double(const Rational& value) {
+  if (const auto exact = quick_double(value)) return *exact;
   const Interval around = Interval::enclose(value);
   if (around.lo == around.hi) return around.lo;
   constexpr double kMax = std::numeric_limits<double>::max();

@@ -2,6 +2,7 @@
 #include "encase/polynomial.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "flint_polynomial.hpp"
@@ -44,22 +45,39 @@ std::vector<Term> merged(const std::vector<Term>& a, const std::vector<Term>& b,
 }  // namespace
 
 template <int D>
+const std::vector<typename Polynomial<D>::Term>& Polynomial<D>::terms() const {
+  static const std::vector<Term> none;
+  return shared_ ? shared_->terms : none;
+}
+
+template <int D>
+Polynomial<D> Polynomial<D>::from_ordered(std::vector<Term> terms) {
+  Polynomial f;
+  if (terms.empty()) return f;
+  int degree = 0;
+  for (const Term& term : terms)
+    degree = std::max(degree, std::accumulate(term.exponent.begin(), term.exponent.end(), 0));
+  f.shared_ = std::make_shared<const Shared>(Shared{std::move(terms), degree});
+  return f;
+}
+
+template <int D>
 Polynomial<D> Polynomial<D>::from_terms(std::vector<Term> terms) {
   const auto less = [](const Term& a, const Term& b) { return a.exponent < b.exponent; };
   if (!std::is_sorted(terms.begin(), terms.end(), less))
     std::sort(terms.begin(), terms.end(), less);
-  Polynomial f;
-  f.terms_.reserve(terms.size());
+  std::vector<Term> sums;
+  sums.reserve(terms.size());
   for (Term& term : terms) {
-    if (!f.terms_.empty() && f.terms_.back().exponent == term.exponent) {
-      f.terms_.back().coefficient += term.coefficient;
+    if (!sums.empty() && sums.back().exponent == term.exponent) {
+      sums.back().coefficient += term.coefficient;
     } else {
-      if (!f.terms_.empty() && f.terms_.back().coefficient == 0) f.terms_.pop_back();
-      f.terms_.push_back(std::move(term));
+      if (!sums.empty() && sums.back().coefficient == 0) sums.pop_back();
+      sums.push_back(std::move(term));
     }
   }
-  if (!f.terms_.empty() && f.terms_.back().coefficient == 0) f.terms_.pop_back();
-  return f;
+  if (!sums.empty() && sums.back().coefficient == 0) sums.pop_back();
+  return from_ordered(std::move(sums));
 }
 
 template <int D>
@@ -75,56 +93,42 @@ Polynomial<D> Polynomial<D>::variable(int axis) {
 }
 
 template <int D>
-int Polynomial<D>::degree() const {
-  int largest = -1;
-  for (const Term& term : terms_) {
-    int total = 0;
-    for (int e : term.exponent) total += e;
-    largest = std::max(largest, total);
-  }
-  return largest;
-}
-
-template <int D>
 int Polynomial<D>::degree(int axis) const {
   int largest = -1;
-  for (const Term& term : terms_) largest = std::max(largest, term.exponent[axis]);
+  for (const Term& term : terms()) largest = std::max(largest, term.exponent[axis]);
   return largest;
 }
 
 template <int D>
 Polynomial<D> Polynomial<D>::operator-() const {
-  Polynomial f = *this;
-  for (Term& term : f.terms_) term.coefficient = -term.coefficient;
-  return f;
+  std::vector<Term> negated = terms();
+  for (Term& term : negated) term.coefficient = -term.coefficient;
+  return from_ordered(std::move(negated));
 }
 
 template <int D>
 Polynomial<D> Polynomial<D>::operator+(const Polynomial& other) const {
-  Polynomial sum;
-  sum.terms_ = merged(terms_, other.terms_, 1);
-  return sum;
+  return from_ordered(merged(terms(), other.terms(), 1));
 }
 
 template <int D>
 Polynomial<D> Polynomial<D>::operator-(const Polynomial& other) const {
-  Polynomial difference;
-  difference.terms_ = merged(terms_, other.terms_, -1);
-  return difference;
+  return from_ordered(merged(terms(), other.terms(), -1));
 }
 
 template <int D>
 Polynomial<D> Polynomial<D>::operator*(const Polynomial& other) const {
   if (is_zero() || other.is_zero()) return {};
-  if (terms_.size() == 1 || other.terms_.size() == 1) {
+  if (terms().size() == 1 || other.terms().size() == 1) {
     // Multiplying by one term keeps the order of the others.
-    const Term& factor = terms_.size() == 1 ? terms_.front() : other.terms_.front();
-    Polynomial product = terms_.size() == 1 ? other : *this;
-    for (Term& term : product.terms_) {
+    const bool first = terms().size() == 1;
+    const Term& factor = first ? terms().front() : other.terms().front();
+    std::vector<Term> product = first ? other.terms() : terms();
+    for (Term& term : product) {
       term.coefficient *= factor.coefficient;
       for (int i = 0; i < D; ++i) term.exponent[i] += factor.exponent[i];
     }
-    return product;
+    return from_ordered(std::move(product));
   }
   const FlintContext<D> context;
   FlintPolynomial<D> a(context), b(context), product(context);
@@ -138,14 +142,13 @@ template <int D>
 Polynomial<D> Polynomial<D>::power(int exponent) const {
   if (exponent == 0) return constant(1);
   if (exponent == 1 || is_zero()) return *this;
-  if (terms_.size() == 1) {
-    Polynomial result = *this;
-    Term& term = result.terms_.front();
+  if (terms().size() == 1) {
+    Term term = terms().front();
     const unsigned long n = static_cast<unsigned long>(exponent);
     mpz_pow_ui(term.coefficient.get_num_mpz_t(), term.coefficient.get_num_mpz_t(), n);
     mpz_pow_ui(term.coefficient.get_den_mpz_t(), term.coefficient.get_den_mpz_t(), n);
     for (int& e : term.exponent) e *= exponent;
-    return result;
+    return from_ordered({std::move(term)});
   }
   const FlintContext<D> context;
   FlintPolynomial<D> base(context), result(context);
@@ -160,14 +163,14 @@ Polynomial<D> Polynomial<D>::power(int exponent) const {
 template <int D>
 Polynomial<D> Polynomial<D>::derivative(int axis) const {
   // Exponents that keep their order: each of them loses 1 in one place.
-  Polynomial f;
-  for (const Term& term : terms_) {
+  std::vector<Term> derived;
+  for (const Term& term : terms()) {
     if (term.exponent[axis] == 0) continue;
-    f.terms_.push_back(term);
-    f.terms_.back().coefficient *= term.exponent[axis];
-    --f.terms_.back().exponent[axis];
+    derived.push_back(term);
+    derived.back().coefficient *= term.exponent[axis];
+    --derived.back().exponent[axis];
   }
-  return f;
+  return from_ordered(std::move(derived));
 }
 
 template <int D>
@@ -192,10 +195,10 @@ Rational Polynomial<D>::operator()(const RationalPoint<D>& point) const {
     denominator *= scale;
   }
   Integer common = 1;
-  for (const Term& term : terms_)
+  for (const Term& term : terms())
     mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), term.coefficient.get_den().get_mpz_t());
   Integer sum = 0;
-  for (const Term& term : terms_) {
+  for (const Term& term : terms()) {
     Integer product = term.coefficient.get_num() * (common / term.coefficient.get_den());
     for (int i = 0; i < D; ++i) product *= factor[i][term.exponent[i]];
     sum += product;
@@ -209,7 +212,7 @@ template <int D>
 std::string Polynomial<D>::to_string() const {
   if (is_zero()) return "0";
   std::string text;
-  for (auto term = terms_.rbegin(); term != terms_.rend(); ++term) {
+  for (auto term = terms().rbegin(); term != terms().rend(); ++term) {
     const bool negative = term->coefficient < 0;
     if (text.empty())
       text = negative ? "-" : "";

@@ -107,5 +107,22 @@ TEST(Polynomial, TextShowsHighestTermsFirst) {
   EXPECT_EQ(Polynomial<2>().to_string(), "0");
 }
 
+TEST(Polynomial, CopiesShareTermsButStayValues) {
+  const auto x = Polynomial<2>::variable(0), y = Polynomial<2>::variable(1);
+  Polynomial<2> f = x * x + y;
+  const Polynomial<2> copy = f, same = x * x + y;
+  EXPECT_EQ(&copy.terms(), &f.terms());
+  EXPECT_NE(&same.terms(), &f.terms());
+  EXPECT_EQ(same, f);
+  f = f + x;
+  EXPECT_EQ(copy, same);
+  EXPECT_NE(copy, f);
+  EXPECT_EQ(copy - copy, Polynomial<2>());
+  const Polynomial<2> moved = std::move(f);
+  EXPECT_EQ(moved, x * x + y + x);
+  EXPECT_EQ(f, Polynomial<2>());  // NOLINT(bugprone-use-after-move): a moved polynomial is zero
+  EXPECT_EQ(f.degree(), -1);
+}
+
 }  // namespace
 }  // namespace encase

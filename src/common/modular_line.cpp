@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "common/modular_line.hpp"
+
+#include <algorithm>
+
+#include "common/dyadic.hpp"
+
+namespace encase {
+namespace {
+
+using Residue = std::uint64_t;
+
+constexpr int kBits = 61;
+constexpr Residue kPrime = (Residue{1} << kBits) - 1;
+constexpr Residue kOffset = 1034971827364859203, kSlope = 1234567890123456789;
+
+/// The residue of a number below 2^123: 2^61 is 1 modulo the prime.
+Residue reduce(unsigned __int128 x) {
+  const Residue low = static_cast<Residue>(x) & kPrime, high = static_cast<Residue>(x >> kBits);
+  Residue sum = low + (high & kPrime) + (high >> kBits);
+  if (sum >= kPrime) sum -= kPrime;
+  return sum >= kPrime ? sum - kPrime : sum;
+}
+Residue product(Residue a, Residue b) { return reduce(static_cast<unsigned __int128>(a) * b); }
+/// a b + c d
+Residue product_sum(Residue a, Residue b, Residue c, Residue d) {
+  return reduce(static_cast<unsigned __int128>(a) * b + static_cast<unsigned __int128>(c) * d);
+}
+Residue negative(Residue a) { return a == 0 ? 0 : kPrime - a; }
+
+/// By Fermat's theorem a^(p - 2); p - 2 has all bits but the second lowest.
+Residue inverse(Residue a) {
+  Residue power = a;
+  for (int bit = kBits - 2; bit >= 0; --bit) {
+    power = product(power, power);
+    if (bit != 1) power = product(power, a);
+  }
+  return power;
+}
+
+Residue residue(mpz_srcptr value) {
+  const Residue magnitude =
+      mpz_size(value) == 1 ? reduce(mpz_limbs_read(value)[0]) : mpz_tdiv_ui(value, kPrime);
+  return mpz_sgn(value) < 0 ? negative(magnitude) : magnitude;
+}
+
+/// The coefficients modulo the prime, in the order of the terms; nothing if it divides a
+/// denominator.
+std::optional<std::vector<Residue>> coefficients(const Polynomial<2>& f) {
+  const std::size_t n = f.terms().size();
+  std::vector<Residue> result(n);
+  // Denominators other than powers of two are inverted together, at the price of one: first the
+  // product of those before each.
+  std::vector<std::size_t> others;
+  std::vector<Residue> denominators, before;
+  Residue all = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Rational& c = f.terms()[k].coefficient;
+    result[k] = residue(c.get_num_mpz_t());
+    const mpz_srcptr denominator = c.get_den_mpz_t();
+    if (is_power_of_two(denominator)) {
+      // The inverse of 2^e is 2^(-e modulo 61).
+      const long e = (bit_length(denominator) - 1) % kBits;
+      if (e > 0) result[k] = product(result[k], Residue{1} << (kBits - e));
+    } else {
+      others.push_back(k);
+      denominators.push_back(residue(denominator));
+      before.push_back(all);
+      all = product(all, denominators.back());
+    }
+  }
+  if (all == 0) return std::nullopt;
+  if (others.empty()) return result;
+  Residue rest = inverse(all);
+  for (std::size_t i = others.size(); i-- > 0;) {
+    result[others[i]] = product(result[others[i]], product(rest, before[i]));
+    rest = product(rest, denominators[i]);
+  }
+  return result;
+}
+
+void drop_zeros(ModularPolynomial& f) {
+  while (!f.empty() && f.back() == 0) f.pop_back();
+}
+
+/// Turns f into a remainder of f times a constant by g, of lower degree than g, which is not zero.
+void remainder(ModularPolynomial& f, const ModularPolynomial& g) {
+  if (g.size() == 1) f.clear();
+  while (f.size() >= g.size()) {
+    const Residue lead = g.back(), factor = negative(f.back());
+    const std::size_t shift = f.size() - g.size();
+    for (std::size_t k = 0; k < shift; ++k) f[k] = product(f[k], lead);
+    for (std::size_t k = 0; k + 1 < g.size(); ++k)
+      f[shift + k] = product_sum(f[shift + k], lead, g[k], factor);
+    f.pop_back();
+    drop_zeros(f);
+  }
+}
+
+bool coprime_in_place(ModularPolynomial& f, ModularPolynomial& g) {
+  while (!f.empty() && !g.empty()) {
+    if (f.size() < g.size()) f.swap(g);
+    remainder(f, g);
+  }
+  return f.size() + g.size() == 1;
+}
+
+}  // namespace
+
+std::optional<ModularPolynomial> restrict_modulo_prime(const Polynomial<2>& f) {
+  const auto coefficient = coefficients(f);
+  if (!coefficient) return std::nullopt;
+  const std::size_t size = static_cast<std::size_t>(f.degree()) + 1;
+  std::vector<Residue> dense(size * size);  // that of x^i y^j in row j
+  for (std::size_t k = 0; k < coefficient->size(); ++k) {
+    const auto& exponent = f.terms()[k].exponent;
+    dense[static_cast<std::size_t>(exponent[1]) * size + static_cast<std::size_t>(exponent[0])] =
+        (*coefficient)[k];
+  }
+  // Horner's rule over the powers of y: times a + b t, plus the row; of degree f's less the power.
+  ModularPolynomial result(size);
+  for (std::size_t j = size; j-- > 0;) {
+    const Residue* row = &dense[j * size];
+    for (std::size_t k = size - j; k-- > 0;) {
+      const Residue moved = k > 0 ? result[k - 1] : 0;
+      result[k] = product_sum(result[k], kOffset, moved, kSlope) + row[k];
+      if (result[k] >= kPrime) result[k] -= kPrime;
+    }
+  }
+  if (result.back() == 0) return std::nullopt;
+  return result;
+}
+
+bool coprime(const ModularPolynomial& f, const ModularPolynomial& g) {
+  ModularPolynomial a = f, b = g;
+  return coprime_in_place(a, b);
+}
+
+bool square_free(const ModularPolynomial& f) {
+  ModularPolynomial a = f, derivative(f.size() - 1);
+  for (std::size_t k = 1; k < f.size(); ++k) derivative[k - 1] = product(f[k], k);
+  return coprime_in_place(a, derivative);
+}
+
+}  // namespace encase
