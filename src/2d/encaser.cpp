@@ -22,6 +22,16 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+/// Whether two of the boxes share a point.
+bool any_meet(std::vector<Box<2>> boxes) {
+  std::sort(boxes.begin(), boxes.end(),
+            [](const Box<2>& a, const Box<2>& b) { return a.lo[0] < b.lo[0]; });
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lo[0] <= boxes[i].hi[0]; ++j)
+      if (boxes[i].meets(boxes[j])) return true;
+  return false;
+}
+
 std::string decimal(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", x);
@@ -128,6 +138,7 @@ void Encaser::separate_components() {
 
 void Encaser::use_region(const Region& region) {
   result_.region_used = region;
+  bounds_ = region.bounding_box();
   sides_.clear();
   for (int k = 0; k < region.side_count(); ++k) sides_.push_back(region.side(k));
   partition_ = std::make_unique<Partition>(polynomials_, kernel_);
@@ -137,9 +148,13 @@ bool Encaser::open_region() {
   // The region itself, or one of some slightly larger polygons in which every curve meets the sides
   // in simple points, none of them a corner or shared (design of the boundary: docs/encasement.md).
   for (int attempt = 0; attempt < 6; ++attempt) {
-    auto used = attempt == 0 ? std::optional(result_.region) : enlarged(result_.region, attempt);
-    if (!used) continue;
-    use_region(*used);
+    if (attempt == 0) {
+      use_region(result_.region);
+    } else if (const auto used = enlarged(result_.region, attempt)) {
+      use_region(*used);
+    } else {
+      continue;
+    }
     if (auto cell = partition_->open(sides_)) {
       first_cell_ = std::move(*cell);
       isolate_crossings();
@@ -194,6 +209,7 @@ std::vector<Box<2>> Encaser::clusters_of(const std::vector<Box<2>>& unresolved) 
 
 void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
                      Unresolved::Kind kind, std::vector<int> curves) {
+  if (unresolved.empty()) return;
   std::string names;
   for (const int c : curves)
     names += (names.empty() ? "'" : " and '") + result_.curves[c].name + "'";
@@ -232,12 +248,11 @@ void Encaser::isolate_crossings() {
                                           [](const Unresolved& u) { return u.has_box; }),
                            result_.degenerate.end());
   result_.undecided.clear();
-  const Box<2> box = result_.region_used.bounding_box();
   const int n = static_cast<int>(polynomials_.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) {
-      RootIsolation<2> roots = isolate_roots<2>({&polynomials_[i], &polynomials_[j]}, box, sides_,
-                                                limits("isolating crossings"), kernel_);
+      RootIsolation<2> roots = isolate_roots<2>({&polynomials_[i], &polynomials_[j]}, bounds_,
+                                                sides_, limits("isolating crossings"), kernel_);
       result_.statistics.root_boxes += roots.boxes;
       const int first = static_cast<int>(partition_->crossings.size());
       for (const Box<2>& root : roots.roots) {
@@ -252,9 +267,15 @@ void Encaser::isolate_crossings() {
       report(roots.unresolved, roots.root_box, Unresolved::Kind::Contact, {i, j});
       result_.crossing_covers.push_back({{i, j}, roots.root_box, std::move(roots.tokens)});
     }
+  report_concurrency();
+}
+
+void Encaser::report_concurrency() {
   // Boxes of different pairs that meet: three curves through one point, as far as can be told.
   std::vector<Box<2>> boxes;
+  boxes.reserve(partition_->crossings.size());
   for (const Crossing& crossing : partition_->crossings) boxes.push_back(crossing.box);
+  if (!any_meet(boxes)) return;
   const std::vector<int> component = connected_components(boxes);
   std::vector<std::vector<int>> groups(boxes.size());
   for (std::size_t k = 0; k < boxes.size(); ++k)
@@ -278,9 +299,8 @@ void Encaser::isolate_crossings() {
 }
 
 void Encaser::find_critical_regions() {
-  const Box<2> box = result_.region_used.bounding_box();
   for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
-    CriticalRegions found = critical_regions(polynomials_[c], c, box, sides_,
+    CriticalRegions found = critical_regions(polynomials_[c], c, bounds_, sides_,
                                              limits("finding critical regions"), kernel_);
     result_.statistics.critical_boxes += found.boxes;
     const int first = static_cast<int>(partition_->critical_regions.size());
@@ -303,7 +323,7 @@ void Encaser::collect_zones() {
     before = boxes.size();
     boxes = clusters_of(boxes);
   }
-  const double diameter = result_.region_used.bounding_box().largest_width();
+  const double diameter = bounds_.largest_width();
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const Box<2>& box = boxes[k];
     // Wide enough to be cheap to surround, but clear of every other feature.

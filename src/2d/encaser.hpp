@@ -44,6 +44,7 @@ class Encaser {
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
   void report(const std::vector<Box<2>>& unresolved, const Box<2>& root, Unresolved::Kind kind,
               std::vector<int> curves);
+  void report_concurrency();
   Cell finish(const OpenCell& open, CellState state, int id);
 
   struct Finished {
@@ -58,6 +59,7 @@ class Encaser {
   Encasement result_;
   std::vector<FilteredPolynomial<2>> polynomials_;
   std::vector<Line> sides_;  // of region_used
+  Box<2> bounds_;            // of region_used
   std::unique_ptr<Partition> partition_;
   OpenCell first_cell_;
   std::vector<Finished> finished_;

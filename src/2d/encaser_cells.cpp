@@ -28,7 +28,7 @@ Encaser::Shape Encaser::shape_of(const CellAtHand& at_hand) {
 bool Encaser::find_cut_at_zone(const OpenCell& cell, SplittingLines& lines, CellState* settled) {
   const Partition& partition = *partition_;
   const Box<2> bounds = bounds_of(cell);
-  const double diameter = result_.region_used.bounding_box().largest_width();
+  const double diameter = bounds_.largest_width();
   for (const int k : cell.zones) {
     const Zone& zone = partition.zones[k];
     if (zone.box.largest_width() > diameter / 8) break;
@@ -157,9 +157,12 @@ Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
   cell.state = state;
   cell.depth = open.depth;
   const int n = static_cast<int>(open.edges.size());
-  const Box<2> bounds = result_.region_used.bounding_box();
-  const double size = std::max({std::fabs(bounds.lo[0]), std::fabs(bounds.hi[0]),
-                                std::fabs(bounds.lo[1]), std::fabs(bounds.hi[1])});
+  const double size = std::max({std::fabs(bounds_.lo[0]), std::fabs(bounds_.hi[0]),
+                                std::fabs(bounds_.lo[1]), std::fabs(bounds_.hi[1])});
+  std::size_t crossings = 0;
+  for (const auto& edge : open.edges) crossings += edge.crossings.size();
+  cell.vertices.reserve(open.edges.size() + crossings);
+  cell.word.reserve(crossings);
   for (int k = 0; k < n; ++k) {
     const auto& edge = open.edges[k];
     const int before = open.edges[(k + n - 1) % n].line;
@@ -184,6 +187,7 @@ Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
   for (const int k : open.crossings) partition.crossings[k].cell = id;
   if (state == CellState::Certified || state == CellState::Relaxed) {
     if (!open.crossings.empty()) cell.crossing = open.crossings.front();
+    cell.branches.reserve(cell.word.size() / 2);
     for (std::size_t i = 0; i < cell.word.size(); ++i)
       for (std::size_t j = i + 1; j < cell.word.size(); ++j) {
         const int c = partition.line_crossings[cell.word[i]].curve;
@@ -214,6 +218,7 @@ void Encaser::finish_cells() {
           }
         }
       }
+  result_.cells.reserve(finished_.size());
   int unfinished = 0;
   for (std::size_t k = 0; k < finished_.size(); ++k) {
     Finished& f = finished_[k];

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <string>
 
+#include "common/dyadic.hpp"
 #include "common/interval.hpp"
 
 namespace encase {
@@ -41,6 +42,23 @@ int dot_sign(const Vector& u, const Vector& v) { return sgn(Rational(u[0] * v[0]
 /// The direction's angle lies in [pi, 2 pi).
 bool points_down(const Vector& u) { return u[1] < 0 || (u[1] == 0 && u[0] < 0); }
 
+/// The line of a side from p to q that is parallel to an axis, if its coordinates are doubles: with
+/// a unit normal and so without a rounding.
+std::optional<Line> axis_parallel_side(const RationalPoint<2>& p, const RationalPoint<2>& q) {
+  for (int i = 0; i < 2; ++i) {
+    if (p[i] != q[i]) continue;
+    const auto at = quick_double(p[i]);
+    if (!at) return std::nullopt;
+    // The inside lies to the left of the direction from p to q.
+    const int along = cmp(q[1 - i], p[1 - i]);
+    Line line;
+    line.normal[i] = (along > 0) == (i == 0) ? 1 : -1;
+    line.offset = 0.0 - line.normal[i] * *at;
+    return line;
+  }
+  return std::nullopt;
+}
+
 Error bad(std::string message) { return {Error::Code::BadInput, std::move(message)}; }
 
 }  // namespace
@@ -48,6 +66,7 @@ Error bad(std::string message) { return {Error::Code::BadInput, std::move(messag
 Line Region::side(int k) const {
   const auto& p = corners[static_cast<std::size_t>(k)];
   const auto& q = corners[static_cast<std::size_t>(k + 1) % corners.size()];
+  if (const auto simple = axis_parallel_side(p, q)) return *simple;
   // The inside lies to the left of the direction from p to q; the normal points to the right.
   std::array<Rational, 3> line{q[1] - p[1], p[0] - q[0], 0};
   if (line[0] == 0 || line[1] == 0) {

@@ -2,6 +2,7 @@
 #include "common/coefficient_rows.hpp"
 
 #include <cstdint>
+#include <cstring>
 
 #include "common/vectorized.hpp"
 #include "encase/polynomial.hpp"
@@ -132,8 +133,7 @@ CoefficientRows::CoefficientRows(const std::vector<double>& dense, int degree) :
   const std::size_t rows = static_cast<std::size_t>(degree) + 1, width = (rows + 7) / 8;
   blocks_.resize(rows * width);  // zeros
   for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t j = 0; i + j < rows; ++j)
-      blocks_[i * width + j / 8].lane[j % 8] = dense[i * rows + j];
+    std::memcpy(&blocks_[i * width], &dense[i * rows], (rows - i) * sizeof(double));
 }
 
 double CoefficientRows::value(const Point<2>& at) const {

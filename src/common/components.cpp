@@ -195,15 +195,18 @@ std::vector<BaseElement<2>> coprime_square_free_base(const std::vector<Polynomia
   // What is still simple was so at each of its pairs, and so proved coprime to every other input.
   // The rest is refined among itself.
   std::vector<BaseElement<2>> base;
-  Refinement refinement;
+  std::optional<Refinement> refinement;
   for (std::size_t i = 0; i < n; ++i) {
     if (inputs[i].is_constant()) continue;
-    if (simple[i])
+    if (simple[i]) {
       base.push_back({inputs[i], {{static_cast<int>(i), 1}}});
-    else
-      refinement.add(static_cast<int>(i), inputs[i]);
+    } else {
+      if (!refinement) refinement.emplace();
+      refinement->add(static_cast<int>(i), inputs[i]);
+    }
   }
-  for (auto& element : std::move(refinement).take(inputs)) base.push_back(std::move(element));
+  if (!refinement) return base;
+  for (auto& element : std::move(*refinement).take(inputs)) base.push_back(std::move(element));
   std::stable_sort(base.begin(), base.end(), [](const auto& a, const auto& b) {
     return a.sources.front().index < b.sources.front().index;
   });

@@ -23,7 +23,7 @@ inline long bit_length(mpz_srcptr value) {
 inline bool is_power_of_two(mpz_srcptr value) {
   const mp_limb_t* limbs = mpz_limbs_read(value);
   const std::size_t top = mpz_size(value) - 1;
-  return std::has_single_bit(limbs[top]) &&
+  return (limbs[top] & (limbs[top] - 1)) == 0 &&
          std::all_of(limbs, limbs + top, [](mp_limb_t limb) { return limb == 0; });
 }
 

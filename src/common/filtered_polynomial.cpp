@@ -210,7 +210,8 @@ void FilteredPolynomial<D>::set_coefficient(std::size_t index, const Rational& e
   } else {
     const Rational value = scaled(exact);
     coefficients_[index] = value.get_d();
-    exact_coefficients_ = exact_coefficients_ && Rational(coefficients_[index]) == value;
+    exact_coefficients_ = exact_coefficients_ && is_power_of_two(value.get_den_mpz_t()) &&
+                          Rational(coefficients_[index]) == value;
   }
   magnitudes_[index] = std::fabs(coefficients_[index]) * (1 + 0x1p-51);
 }

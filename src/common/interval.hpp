@@ -64,6 +64,17 @@ inline Centered centered(double lo, double hi) {
   return {center, (below < above ? above : below) * (1 + 0x1p-50), false};
 }
 
+/// Encloses what was rounded to the four numbers; everything if one is NaN.
+inline Interval around(double p, double q, double r, double s) {
+  if (std::isnan(p + q + r + s))
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  // Not fmin and fmax, which are calls.
+  const auto least = [](double a, double b) { return a < b ? a : b; };
+  const auto largest = [](double a, double b) { return a > b ? a : b; };
+  return {round_down(least(least(p, q), least(r, s))),
+          round_up(largest(largest(p, q), largest(r, s)))};
+}
+
 inline Interval operator-(const Interval& a) { return {-a.hi, -a.lo}; }
 inline Interval operator+(const Interval& a, const Interval& b) {
   return {round_down(a.lo + b.lo), round_up(a.hi + b.hi)};
@@ -71,19 +82,13 @@ inline Interval operator+(const Interval& a, const Interval& b) {
 inline Interval operator-(const Interval& a, const Interval& b) { return a + (-b); }
 inline Interval operator*(const Interval& a, const Interval& b) {
   const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
-  if (std::isnan(p + q + r + s))
-    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  return {round_down(std::fmin(std::fmin(p, q), std::fmin(r, s))),
-          round_up(std::fmax(std::fmax(p, q), std::fmax(r, s)))};
+  return around(p, q, r, s);
 }
 inline Interval operator/(const Interval& a, const Interval& b) {
   if (!(b.lo > 0 || b.hi < 0))
     return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   const double p = a.lo / b.lo, q = a.lo / b.hi, r = a.hi / b.lo, s = a.hi / b.hi;
-  if (std::isnan(p + q + r + s))
-    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  return {round_down(std::fmin(std::fmin(p, q), std::fmin(r, s))),
-          round_up(std::fmax(std::fmax(p, q), std::fmax(r, s)))};
+  return around(p, q, r, s);
 }
 
 }  // namespace encase
