@@ -159,10 +159,8 @@ Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
   const int n = static_cast<int>(open.edges.size());
   const double size = std::max({std::fabs(bounds_.lo[0]), std::fabs(bounds_.hi[0]),
                                 std::fabs(bounds_.lo[1]), std::fabs(bounds_.hi[1])});
-  std::size_t crossings = 0;
-  for (const auto& edge : open.edges) crossings += edge.crossings.size();
-  cell.vertices.reserve(open.edges.size() + crossings);
-  cell.word.reserve(crossings);
+  cell.vertices.reserve(open.edges.size() + open.word.size());
+  cell.word.assign(open.word.begin(), open.word.end());
   for (int k = 0; k < n; ++k) {
     const auto& edge = open.edges[k];
     const int before = open.edges[(k + n - 1) % n].line;
@@ -181,7 +179,6 @@ Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
             {edge.line, edge.line, at,
              Place(point_on_line(partition.lines[edge.line], Interval(at))).center});
       }
-      cell.word.push_back(open.word[i]);
     }
   }
   for (const int k : open.crossings) partition.crossings[k].cell = id;
