@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "common/filtered_polynomial.hpp"
+#include "common/kernel.hpp"
+#include "encase/geometry.hpp"
+
+namespace encase {
+
+/// A polynomial on a rectangle, in the rectangle's own coordinates: for |s_k| <= kReach
+///
+///   f(center + half * s) = sum over i + j <= degree of a[i][j] s_0^i s_1^j  +  e(s).
+///
+/// What the search asks about f inside the rectangle it asks its tile: the coefficients are those of
+/// an expansion around the centre, so that rounding errors are small beside the values there, and
+/// there are few of them whatever the degree of f. f is scaled as in FilteredPolynomial.
+struct Tile {
+  static constexpr int kMaxDegree = 15;
+  static constexpr int kRow = kMaxDegree + 1;
+  static constexpr double kReach = 1 + 0x1p-10;
+
+  Point<2> center{};
+  Point<2> half{};
+  int degree = -1;  ///< -1: no tile
+  int bits = 0;     ///< the precision of the arithmetic that it comes from
+  alignas(64) std::array<std::array<double, kRow>, kRow> a;  ///< zero where i + j > degree
+  double sum = 0;          ///< at least sum |a[i][j]| kReach^(i+j)
+  double slope = 0;        ///< at least sum (i+j) |a[i][j]| kReach^(i+j): bounds |d/ds_k| of the sum
+  double error = 0;        ///< |e| on the rectangle
+  double slope_error = 0;  ///< |de/ds_k| on the rectangle
+  /// What is lost where the polynomial of the tile is replaced, on a part of the rectangle whose
+  /// half width is the fraction r of the tile's, by its interpolant of degree 7 in either variable
+  /// (common/patch.hpp): at most sum tail[k] r^(8+k) of the value, sum slope_tail[k] r^(8+k) of a
+  /// partial derivative in the part's own coordinates.
+  std::array<double, kMaxDegree - 7> tail{};
+  std::array<double, kMaxDegree - 7> slope_tail{};
+};
+
+/// A polynomial with tiles that cover a box: one where its degree is low or the box is small, else
+/// a quadtree of them, each made when it is first asked for. Not shared between threads.
+class TiledPolynomial {
+ public:
+  TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel);
+
+  const FilteredPolynomial<2>& polynomial() const { return *f_; }
+  const Box<2>& box() const { return root_; }
+
+  /// The tile whose rectangle holds the point (one of them on borders; the nearest for a point
+  /// outside the box).
+  const Tile& at(const Point<2>& point);
+
+  /// A tile of its own around a box, from the coefficients in arithmetic of `bits` (53 stands for
+  /// double-doubles). False if f's degree is too high for the terms that a tile has to carry it.
+  bool expand(const Box<2>& box, int bits, Tile* tile) const;
+
+ private:
+  struct Node {
+    int first_child = -1;  ///< of four: bit 0 the upper half in x, bit 1 in y
+    int depth = 0;
+    Box<2> box;
+    std::unique_ptr<Tile> tile;
+  };
+  const FilteredPolynomial<2>* f_;
+  Kernel* kernel_;
+  Box<2> root_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace encase
