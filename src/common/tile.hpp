@@ -30,14 +30,15 @@ struct Tile {
   alignas(64) std::array<std::array<double, kRow>, kRow> a;  ///< zero where i + j > degree
   double sum = 0;          ///< at least sum |a[i][j]| kReach^(i+j)
   double slope = 0;        ///< at least sum (i+j) |a[i][j]| kReach^(i+j): bounds |d/ds_k| of the sum
+  double bend = 0;         ///< at least sum (i+j)^2 |a[i][j]| kReach^(i+j)
   double error = 0;        ///< |e| on the rectangle
   double slope_error = 0;  ///< |de/ds_k| on the rectangle
+  double bend_error = 0;   ///< the second derivatives of e on the rectangle
   /// What is lost where the polynomial of the tile is replaced, on a part of the rectangle whose
   /// half width is the fraction r of the tile's, by its interpolant of degree 7 in either variable
-  /// (common/patch.hpp): at most sum tail[k] r^(8+k) of the value, sum slope_tail[k] r^(8+k) of a
-  /// partial derivative in the part's own coordinates.
-  std::array<double, kMaxDegree - 7> tail{};
-  std::array<double, kMaxDegree - 7> slope_tail{};
+  /// (common/patch.hpp): at most sum tail[k][0] r^(8+k) of the value, [1] of a partial derivative
+  /// and [2] of a second one, in the part's own coordinates.
+  std::array<std::array<double, 3>, kMaxDegree - 7> tail{};
 };
 
 /// A polynomial with tiles that cover a box: one where its degree is low or the box is small, else
@@ -45,6 +46,8 @@ struct Tile {
 class TiledPolynomial {
  public:
   TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel);
+  TiledPolynomial(TiledPolynomial&&) noexcept;
+  ~TiledPolynomial();
 
   const FilteredPolynomial<2>& polynomial() const { return *f_; }
   const Box<2>& box() const { return root_; }
@@ -64,10 +67,20 @@ class TiledPolynomial {
     Box<2> box;
     std::unique_ptr<Tile> tile;
   };
+  struct Workspace;
+  void make_columns(double center, double half, Workspace& workspace) const;
+  bool make_tile(const Box<2>& box, Tile* tile) const;
+  bool make_precise_tile(const Box<2>& box, int bits, Tile* tile) const;
+
   const FilteredPolynomial<2>* f_;
   Kernel* kernel_;
   Box<2> root_;
   std::vector<Node> nodes_;
+  std::unique_ptr<Workspace> workspace_;
 };
+
+/// The value of a tile's polynomial and its partial derivatives at s, computed in doubles; for
+/// heuristics and Newton steps.
+std::array<double, 3> value_and_gradient(const Tile& tile, const Point<2>& s);
 
 }  // namespace encase

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Rows of eight doubles, for every instruction set that Highway compiles for (included once for
+// each, therefore the unusual guard). Only the operations that IEEE 754 fixes are used, in a fixed
+// order, so that all instruction sets give the same bits.
+#if defined(ENCASE_SIMD_ROWS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ENCASE_SIMD_ROWS_INL
+#undef ENCASE_SIMD_ROWS_INL
+#else
+#define ENCASE_SIMD_ROWS_INL
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace encase::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Lanes = hn::CappedTag<double, 8>;
+using Vector = hn::Vec<Lanes>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(Lanes()));
+constexpr int kParts = 8 / kLanes;
+
+/// Eight doubles.
+struct Row {
+  Vector part[kParts];
+
+  static HWY_INLINE Row load(const double* from) {
+    Row r;
+    for (int k = 0; k < kParts; ++k) r.part[k] = hn::Load(Lanes(), from + k * kLanes);
+    return r;
+  }
+  static HWY_INLINE Row load_unaligned(const double* from) {
+    Row r;
+    for (int k = 0; k < kParts; ++k) r.part[k] = hn::LoadU(Lanes(), from + k * kLanes);
+    return r;
+  }
+  static HWY_INLINE Row all(double x) {
+    Row r;
+    for (int k = 0; k < kParts; ++k) r.part[k] = hn::Set(Lanes(), x);
+    return r;
+  }
+  HWY_INLINE void store(double* to) const {
+    for (int k = 0; k < kParts; ++k) hn::Store(part[k], Lanes(), to + k * kLanes);
+  }
+};
+
+#define ENCASE_ROW_OPERATION(name, operation)                                             \
+  HWY_INLINE Row name(const Row& a, const Row& b) {                                       \
+    Row r;                                                                                \
+    for (int k = 0; k < kParts; ++k) r.part[k] = hn::operation(a.part[k], b.part[k]);     \
+    return r;                                                                             \
+  }
+ENCASE_ROW_OPERATION(operator+, Add)
+ENCASE_ROW_OPERATION(operator-, Sub)
+ENCASE_ROW_OPERATION(operator*, Mul)
+ENCASE_ROW_OPERATION(least, Min)
+ENCASE_ROW_OPERATION(greatest, Max)
+#undef ENCASE_ROW_OPERATION
+
+HWY_INLINE Row absolute(const Row& a) {
+  Row r;
+  for (int k = 0; k < kParts; ++k) r.part[k] = hn::Abs(a.part[k]);
+  return r;
+}
+/// a where lane < count, else b.
+HWY_INLINE Row first_lanes(const Row& a, const Row& b, int count) {
+  Row r;
+  for (int k = 0; k < kParts; ++k) {
+    const int here = count - k * kLanes;
+    r.part[k] = hn::IfThenElse(
+        hn::FirstN(Lanes(), static_cast<size_t>(here < 0 ? 0 : here)), a.part[k], b.part[k]);
+  }
+  return r;
+}
+HWY_INLINE double least_lane(const Row& a) {
+  Vector v = a.part[0];
+  for (int k = 1; k < kParts; ++k) v = hn::Min(v, a.part[k]);
+  return hn::GetLane(hn::MinOfLanes(Lanes(), v));
+}
+HWY_INLINE double greatest_lane(const Row& a) {
+  Vector v = a.part[0];
+  for (int k = 1; k < kParts; ++k) v = hn::Max(v, a.part[k]);
+  return hn::GetLane(hn::MaxOfLanes(Lanes(), v));
+}
+/// The sum of the lanes, in one order for all instruction sets.
+HWY_INLINE double sum_of_lanes(const Row& a) {
+  HWY_ALIGN double x[8];
+  a.store(x);
+  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+}
+
+/// x * y = product + error exactly, where nothing underflows or overflows.
+HWY_INLINE Row exact_product(const Row& x, const Row& y, Row* error) {
+  const Row product = x * y;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  for (int k = 0; k < kParts; ++k)
+    error->part[k] = hn::MulSub(x.part[k], y.part[k], product.part[k]);
+#else
+  // Dekker, with Veltkamp's splitting.
+  const Row splitter = Row::all(0x1p27 + 1);
+  const Row a = splitter * x, b = splitter * y;
+  const Row x1 = a - (a - x), y1 = b - (b - y);
+  const Row x2 = x - x1, y2 = y - y1;
+  *error = ((x1 * y1 - product) + x1 * y2 + x2 * y1) + x2 * y2;
+#endif
+  return product;
+}
+/// x + y = sum + error exactly (Knuth).
+HWY_INLINE Row exact_sum(const Row& x, const Row& y, Row* error) {
+  const Row sum = x + y;
+  const Row y1 = sum - x;
+  *error = (x - (sum - y1)) + (y - y1);
+  return sum;
+}
+
+}  // namespace encase::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
