@@ -357,7 +357,15 @@ void FilteredPolynomial<D>::with_coefficients(int bits, Kernel& kernel, Run run)
 template <int D>
 void FilteredPolynomial<D>::expand(const Box<D>& box, int net_degree, int bits, Kernel& kernel,
                                    Bernstein<D>* net) const {
+  const Taylor t = taylor(box, bits, kernel);
+  to_bernstein<D>(t.coefficients, degree_, t.error, net_degree, net);
+}
+
+template <int D>
+typename FilteredPolynomial<D>::Taylor FilteredPolynomial<D>::taylor(const Box<D>& box, int bits,
+                                                                     Kernel& kernel) const {
   ++kernel.expansions;
+  Taylor result;
   Point<D> center, half, reach;
   for (int i = 0; i < D; ++i) {
     const Centered chart = centered(box.lo[i], box.hi[i]);
@@ -386,10 +394,11 @@ void FilteredPolynomial<D>::expand(const Box<D>& box, int net_degree, int bits, 
     }
     double error = gamma(roundings, bits) * absolute(reach);
     if constexpr (std::is_floating_point_v<Number>) error += underflow<D>(reach, degree_);
-    const std::vector<double> taylor = round_all(c, &error);
-    to_bernstein<D>(taylor, degree_, error, net_degree, net);
+    result.coefficients = round_all(c, &error);
+    result.error = error;
   };
   with_coefficients(bits, kernel, run);
+  return result;
 }
 
 SegmentChart SegmentChart::of_line(const Line& line, double lo, double hi) {

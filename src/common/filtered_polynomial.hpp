@@ -76,6 +76,14 @@ class FilteredPolynomial {
   /// nearest to the centre.
   void expand(const Box<D>& box, int net_degree, int bits, Kernel& kernel, Bernstein<D>* net) const;
 
+  /// Taylor's coefficients in the coordinates [-1,1]^D of a box (as in `expand`), dense, degree() in
+  /// every variable, and the sum of their errors.
+  struct Taylor {
+    std::vector<double> coefficients;
+    double error;
+  };
+  Taylor taylor(const Box<D>& box, int bits, Kernel& kernel) const;
+
   /// The Bernstein form on a segment, of degree degree().
   void restrict_to(const SegmentChart& segment, int bits, Kernel& kernel, Bernstein<1>* net) const
       requires(D == 2);

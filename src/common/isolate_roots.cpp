@@ -226,9 +226,6 @@ RootIsolation<D> isolate_roots(const System<D>& system, const Box<D>& box,
   return result;
 }
 
-template RootIsolation<2> isolate_roots<2>(const System<2>&, const Box<2>&,
-                                           const std::vector<Hyperplane<2>>&,
-                                           const SubdivisionLimits&, Kernel&);
 template RootIsolation<3> isolate_roots<3>(const System<3>&, const Box<3>&,
                                            const std::vector<Hyperplane<3>>&,
                                            const SubdivisionLimits&, Kernel&);

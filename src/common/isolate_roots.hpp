@@ -5,6 +5,7 @@
 
 #include "common/box_tests.hpp"
 #include "common/subdivision.hpp"
+#include "common/tile.hpp"
 
 namespace encase {
 
@@ -33,5 +34,14 @@ template <int D>
 RootIsolation<D> isolate_roots(const System<D>& system, const Box<D>& box,
                                const std::vector<Hyperplane<D>>& half_spaces,
                                const SubdivisionLimits& limits, Kernel& kernel);
+template <>
+RootIsolation<2> isolate_roots<2>(const System<2>& system, const Box<2>& box,
+                                  const std::vector<Line>& half_planes,
+                                  const SubdivisionLimits& limits, Kernel& kernel);
+
+/// The same in the plane, for polynomials with tiles that cover one common box.
+RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
+                               const std::vector<Line>& half_planes, const SubdivisionLimits& limits,
+                               Kernel& kernel);
 
 }  // namespace encase

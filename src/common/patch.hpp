@@ -37,19 +37,21 @@ struct Patch {
   double magnitude() const { return hi > -lo ? hi : -lo; }
 };
 
-/// The number of coefficients in either variable that patches of a tile have.
-int patch_count(const Tile& tile);
+/// The number of coefficients in either variable that patches of polynomials up to a degree have.
+int patch_count(int degree);
 
 /// What the patch on a part of the tile's rectangle would lose by its low degree, for parts with
 /// half widths up to the fraction `part` of the tile's.
 double interpolation_loss(const Tile& tile, double part);
 
-/// The patch on a box inside the tile's rectangle, rows along x.
-void expand(const Tile& tile, const Box<2>& box, Patch* patch);
+/// The patch with `count` coefficients in either variable (at least patch_count of the tile's degree)
+/// on a box inside the tile's rectangle, rows along x.
+void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch);
 
-/// The halves across the axis of the rows, which run along the other axis afterwards. Of a half on
-/// which f has a proved sign only that is valid: lo, hi and radius.
-void halve(const Patch& patch, Patch* lower, Patch* upper);
+/// The halves across the axis of the rows, which run along the other axis afterwards. Without
+/// `whole`, of a half on which f has a proved sign only that is valid: lo, hi and radius. `patch`
+/// may be one of the halves.
+void halve(const Patch& patch, bool whole, Patch* lower, Patch* upper);
 
 /// What the patches of two polynomials prove about their common zeros.
 struct SystemVerdict {

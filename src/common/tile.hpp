@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/filtered_polynomial.hpp"
+#include "common/interval.hpp"
 #include "common/kernel.hpp"
 #include "encase/geometry.hpp"
 
@@ -34,6 +35,7 @@ struct Tile {
   double error = 0;        ///< |e| on the rectangle
   double slope_error = 0;  ///< |de/ds_k| on the rectangle
   double bend_error = 0;   ///< the second derivatives of e on the rectangle
+  double value_error = 0;  ///< of TiledPolynomial::value on the rectangle
   /// What is lost where the polynomial of the tile is replaced, on a part of the rectangle whose
   /// half width is the fraction r of the tile's, by its interpolant of degree 7 in either variable
   /// (common/patch.hpp): at most sum tail[k][0] r^(8+k) of the value, [1] of a partial derivative
@@ -57,8 +59,12 @@ class TiledPolynomial {
   const Tile& at(const Point<2>& point);
 
   /// A tile of its own around a box, from the coefficients in arithmetic of `bits` (53 stands for
-  /// double-doubles). False if f's degree is too high for the terms that a tile has to carry it.
-  bool expand(const Box<2>& box, int bits, Tile* tile) const;
+  /// sums of two doubles). Its error is large where f needs more terms than a tile has.
+  void expand(const Box<2>& box, int bits, Tile* tile);
+
+  /// f at a point of the tile's rectangle, from the coefficients as sums of two doubles: good to
+  /// tile.value_error + 2^-52 |value|.
+  double value(const Point<2>& point) const;
 
  private:
   struct Node {
@@ -67,10 +73,12 @@ class TiledPolynomial {
     Box<2> box;
     std::unique_ptr<Tile> tile;
   };
+  struct Coefficients;
   struct Workspace;
-  void make_columns(double center, double half, Workspace& workspace) const;
-  bool make_tile(const Box<2>& box, Tile* tile) const;
-  bool make_precise_tile(const Box<2>& box, int bits, Tile* tile) const;
+  double make(const Box<2>& box, int bits, bool in_tree, Tile* tile);
+  /// What arithmetic with sums of two doubles loses within reach: docs/error-bounds.md.
+  double precise_error(const Point<2>& reach) const;
+  Coefficients& shifted_in_x(double center, double half, bool in_tree);
 
   const FilteredPolynomial<2>* f_;
   Kernel* kernel_;

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "common/isolate_roots.hpp"
+#include "common/plane_subdivision.hpp"
+
+namespace encase {
+namespace {
+
+/// What the search asks of a contraction: a checker that recomputes it on a somewhat different box
+/// has room, and radii are at most some times the residual.
+constexpr double kQuality = 0.7;
+constexpr double kUp = 1 + 0x1p-40;
+
+double ulp(double x) {
+  x = std::fabs(x);
+  return std::nextafter(x, HUGE_VAL) - x;
+}
+
+/// The common zeros of two polynomials that have been found, and how: from boxes of a subdivision.
+class PlaneRoots {
+ public:
+  PlaneRoots(TiledPolynomial& f, TiledPolynomial& g, Kernel& kernel)
+      : system_{&f, &g}, kernel_(kernel) {
+    for (const TiledPolynomial* p : system_)
+      count_ = std::max(count_, patch_count(p->polynomial().degree()));
+  }
+
+  std::vector<Box<2>> roots;
+
+  /// The number of the root that a box can contain which holds at most one, if there is one near.
+  std::optional<int> near(const PlaneSubdivision<2>::Node& node, const Contraction<2>& contraction);
+
+ private:
+  using Tiles = std::array<const Tile*, 2>;
+  struct Step {
+    Point<2> d;
+    Matrix<2> jacobian;
+  };
+  std::optional<Step> newton_step(const Tiles& tiles, const Point<2>& x,
+                                  const std::array<double, 2>* values) const;
+  std::optional<Point<2>> newton(const Tiles& tiles, const Box<2>& leaf) const;
+  std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
+  std::optional<Box<2>> enclose(const Tiles& tiles, const Box<2>& around, const Contraction<2>& c,
+                                Point<2> x) const;
+  std::optional<Box<2>> krawczyk_box(const Box<2>& around, const Contraction<2>& c,
+                                     const Point<2>& x, const std::array<double, 2>& residual) const;
+
+  std::array<TiledPolynomial*, 2> system_;
+  Kernel& kernel_;
+  int count_ = 0;
+  std::array<Tile, 2> around_tiles_;
+};
+
+/// J(x) d = F(x), with the approximate Jacobian; F from the tiles where no values are given.
+std::optional<PlaneRoots::Step> PlaneRoots::newton_step(const Tiles& tiles, const Point<2>& x,
+                                                        const std::array<double, 2>* values) const {
+  Step step;
+  std::array<double, 2> value;
+  for (int i = 0; i < 2; ++i) {
+    const Tile& tile = *tiles[i];
+    const Point<2> s{(x[0] - tile.center[0]) / tile.half[0], (x[1] - tile.center[1]) / tile.half[1]};
+    const auto jet = value_and_gradient(tile, s);
+    value[i] = values ? (*values)[i] : jet[0];
+    step.jacobian[i] = {jet[1] / tile.half[0], jet[2] / tile.half[1]};
+  }
+  const auto& j = step.jacobian;
+  const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+  step.d = {(value[0] * j[1][1] - value[1] * j[0][1]) / determinant,
+            (value[1] * j[0][0] - value[0] * j[1][0]) / determinant};
+  if (!std::isfinite(step.d[0]) || !std::isfinite(step.d[1])) return std::nullopt;
+  return step;
+}
+
+/// A point near the leaf that Newton's iteration settles on.
+std::optional<Point<2>> PlaneRoots::newton(const Tiles& tiles, const Box<2>& leaf) const {
+  const double reach = 2 * leaf.largest_width();
+  const Point<2> start = leaf.center();
+  Point<2> x = start;
+  double last = HUGE_VAL;
+  for (int round = 0; round < 12; ++round) {
+    const auto step = newton_step(tiles, x, nullptr);
+    if (!step) return std::nullopt;
+    double size = 0;
+    for (int i = 0; i < 2; ++i) {
+      x[i] -= step->d[i];
+      size = std::max(size, std::fabs(step->d[i]));
+      if (!(std::fabs(x[i] - start[i]) <= reach)) return std::nullopt;
+    }
+    // Quadratic convergence: the next step would be far below what doubles on a tile can tell.
+    if (size <= 1e-7 * leaf.largest_width() || (round > 2 && size >= 0.5 * last)) break;
+    last = size;
+  }
+  return x;
+}
+
+std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& around, Tiles* tiles) {
+  std::array<Patch, 2> patches;
+  for (int i = 0; i < 2; ++i) {
+    const Tile*& tile = (*tiles)[i];
+    bool contained = true;
+    for (int k = 0; k < 2; ++k)
+      contained = contained && std::fabs(around.lo[k] - tile->center[k]) <= tile->half[k] &&
+                  std::fabs(around.hi[k] - tile->center[k]) <= tile->half[k];
+    if (!contained) {
+      system_[i]->expand(around, kernel_.start_bits, &around_tiles_[i]);
+      tile = &around_tiles_[i];
+    }
+    expand(*tile, around, count_, &patches[i]);
+  }
+  return test_system(patches[0], patches[1], kQuality).contraction;
+}
+
+/// The box around one zero near x by Krawczyk's test within `around`, whose contraction is known:
+/// with R = radius in local coordinates, |Y F(x)| + E R < R in every coordinate proves a zero in
+/// x +- R, if x +- R lies in `around`. `residual` bounds |Y F(x)|.
+std::optional<Box<2>> PlaneRoots::krawczyk_box(const Box<2>& around, const Contraction<2>& c,
+                                               const Point<2>& x,
+                                               const std::array<double, 2>& residual) const {
+  // The half widths of the net that the contraction comes from, or a little more.
+  Point<2> half;
+  for (int k = 0; k < 2; ++k) half[k] = centered(around.lo[k], around.hi[k]).half;
+  // The smallest multiple t of the weights v that makes a Krawczyk radius (as E v < v), 16 times
+  // enlarged to leave a checker room, and no less than 16 ulps in any coordinate.
+  double t = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double image = c.bound[k][0] * c.weights[0] + c.bound[k][1] * c.weights[1];
+    t = std::max(t, 16 * residual[k] / (c.weights[k] - image * kUp));
+    const double size = std::max(std::fabs(x[k]), 0x1p-20 * half[k]);
+    t = std::max(t, 16 * ulp(size) / (c.weights[k] * half[k]));
+  }
+  if (!std::isfinite(t)) return std::nullopt;
+  Box<2> box;
+  std::array<double, 2> radius;
+  for (int k = 0; k < 2; ++k) {
+    // A multiple of some ulps, so that x is exactly the centre.
+    const double wanted = t * c.weights[k] * half[k] * kUp;
+    const double unit = 4 * ulp(std::fabs(x[k]) + wanted);
+    const double r = std::ceil(wanted / unit) * unit;
+    box.lo[k] = x[k] - r;
+    box.hi[k] = x[k] + r;
+    if (!(around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k])) return std::nullopt;
+    // What is proved holds for a box inside the rounded one.
+    radius[k] = (r - 2 * ulp(x[k])) / half[k] * (1 - 0x1p-40);
+  }
+  for (int k = 0; k < 2; ++k) {
+    const double image = residual[k] + c.bound[k][0] * radius[0] + c.bound[k][1] * radius[1];
+    if (!(image * kUp < radius[k])) return std::nullopt;
+  }
+  return box;
+}
+
+std::optional<Box<2>> PlaneRoots::enclose(const Tiles& tiles, const Box<2>& around,
+                                          const Contraction<2>& c, Point<2> x) const {
+  std::optional<Box<2>> best;
+  const auto narrow = [&](const Box<2>& box) {
+    return box.largest_width() <= 128 * ulp(std::max(std::fabs(x[0]), std::fabs(x[1])));
+  };
+  // Values from sums of two doubles, then from MPFR where those are too coarse.
+  for (int bits = kernel_.start_bits; bits > 0 && bits <= 4 * Kernel::kDoubleBits;
+       bits = kernel_.next(bits)) {
+    if (bits == Kernel::kExtendedBits) continue;
+    for (int round = 0; round < 4; ++round) {
+      std::array<double, 2> value, correction{}, residual{};
+      for (int i = 0; i < 2; ++i) {
+        double error;
+        if (bits > Kernel::kDoubleBits) {
+          const auto v = system_[i]->polynomial().evaluate(x, bits);
+          value[i] = v.value;
+          error = v.error;
+        } else {
+          value[i] = system_[i]->value(x);
+          error = tiles[i]->value_error + 0x1p-52 * std::fabs(value[i]);
+        }
+        for (int k = 0; k < 2; ++k) {
+          const double y = c.preconditioner[k][i];
+          correction[k] += y * value[i];
+          residual[k] += std::fabs(y) * error + 0x1p-50 * std::fabs(y * value[i]);
+        }
+      }
+      for (int k = 0; k < 2; ++k) residual[k] = (residual[k] + std::fabs(correction[k])) * kUp;
+      const auto step = newton_step(tiles, x, &value);
+      bool moves = false;
+      if (step)
+        for (int k = 0; k < 2; ++k) moves = moves || std::fabs(step->d[k]) > 2 * ulp(x[k]);
+      // A box is only wanted around the last point.
+      if (!moves || round == 3) {
+        const auto box = krawczyk_box(around, c, x, residual);
+        if (box && (!best || box->largest_width() < best->largest_width())) best = box;
+        break;
+      }
+      for (int k = 0; k < 2; ++k) {
+        x[k] -= step->d[k];
+        if (!(around.lo[k] < x[k] && x[k] < around.hi[k])) return best;
+      }
+    }
+    if (best && narrow(*best)) break;
+  }
+  return best;
+}
+
+std::optional<int> PlaneRoots::near(const PlaneSubdivision<2>::Node& node,
+                                    const Contraction<2>& contraction) {
+  const Box<2>& leaf = node.box;
+  Tiles tiles = node.tile;
+  const auto x = newton(tiles, leaf);
+  if (!x) return std::nullopt;
+  double offset = 0;
+  for (int i = 0; i < 2; ++i)
+    offset = std::max(offset, std::fabs((*x)[i] - leaf.center()[i]) / (0.5 * leaf.width(i)));
+  if (!(offset < 1.7)) return std::nullopt;
+  Box<2> around = leaf;
+  const Contraction<2>* valid = &contraction;
+  std::optional<Contraction<2>> wider;
+  if (offset > 0.95) {
+    // The zero is at the border or outside: argue on a box that has it well inside.
+    for (int i = 0; i < 2; ++i) {
+      around.lo[i] = leaf.lo[i] - 0.5 * leaf.width(i);
+      around.hi[i] = leaf.hi[i] + 0.5 * leaf.width(i);
+    }
+    wider = contraction_around(around, &tiles);
+    if (!wider) return std::nullopt;
+    valid = &*wider;
+  }
+  const auto root = enclose(tiles, around, *valid, *x);
+  if (!root) return std::nullopt;
+  for (std::size_t k = 0; k < roots.size(); ++k) {
+    if (!roots[k].meets(*root)) continue;
+    // Both boxes hold a zero and `around` at most one: the same.
+    if (around.contains(roots[k])) return static_cast<int>(k);
+    return std::nullopt;
+  }
+  roots.push_back(*root);
+  return static_cast<int>(roots.size()) - 1;
+}
+
+}  // namespace
+
+RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
+                               const std::vector<Line>& half_planes, const SubdivisionLimits& limits,
+                               Kernel& kernel) {
+  RootIsolation<2> result;
+  result.root_box = f.box();
+  PlaneRoots roots(f, g, kernel);
+  const auto visit = [&](const PlaneSubdivision<2>::Node& node) {
+    const Patch &p = node.patch[0], &q = node.patch[1];
+    if (p.sign() || q.sign()) return cover::kExcluded;
+    const SystemVerdict verdict = test_system(p, q, kQuality);
+    if (verdict.excluded) return cover::kExcluded;
+    if (verdict.contraction)
+      if (const auto k = roots.near(node, *verdict.contraction)) return *k;
+    return cover::kSplitX;
+  };
+  PlaneSubdivision<2> subdivision({&f, &g}, result.root_box, half_planes, limits, kernel);
+  result.tokens = subdivision.run(visit);
+  result.boxes = subdivision.boxes();
+  result.roots = std::move(roots.roots);
+  result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
+  return result;
+}
+
+template <>
+RootIsolation<2> isolate_roots<2>(const System<2>& system, const Box<2>& box,
+                                  const std::vector<Line>& half_planes,
+                                  const SubdivisionLimits& limits, Kernel& kernel) {
+  const Box<2> root = subdivision_root(box);
+  TiledPolynomial f(*system[0], root, kernel), g(*system[1], root, kernel);
+  return isolate_roots(f, g, half_planes, limits, kernel);
+}
+
+}  // namespace encase

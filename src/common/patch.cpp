@@ -1,0 +1,661 @@
+// SPDX-License-Identifier: MIT
+#include "common/patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "common/interval.hpp"
+#include "encase/number.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "common/patch.cpp"
+#include <hwy/foreach_target.h>
+
+#include "common/simd_rows-inl.hpp"
+
+#ifndef ENCASE_PATCH_SHARED
+#define ENCASE_PATCH_SHARED
+namespace encase {
+
+/// Interpolation at the nodes of Chebyshev, and from there to Bernstein coefficients: constants.
+struct Interpolation {
+  int count = 0;
+  alignas(64) std::array<double, 8> node{};
+  /// coefficient j = sum over k of matrix[j][k] value(node[k]); by_lane[k] holds column k, its last
+  /// entry repeated.
+  std::array<std::array<double, 8>, 8> matrix{};
+  alignas(64) std::array<std::array<double, 8>, 8> by_lane{};
+  double norm = 0;  ///< at least the sums of absolute values of the exact matrix' rows
+};
+
+/// The least and greatest numbers among the coefficients of a net.
+struct Extremes {
+  double lo, hi;
+};
+
+/// What one pass over the nets of a preconditioned system gives: for both components the extremes
+/// of the values and of the partial derivatives across rows and across lanes.
+struct Preconditioned {
+  Matrix<2> y;   ///< the inverse of the mean Jacobian, or its adjugate
+  bool regular;  ///< the inverse exists; else there are no slopes
+  std::array<Extremes, 2> value;
+  std::array<std::array<Extremes, 2>, 2> slope;
+};
+
+}  // namespace encase
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace encase::HWY_NAMESPACE {
+
+/// The least and greatest of several rows.
+struct Extent {
+  Row lo, hi;
+  HWY_INLINE explicit Extent(const Row& first) : lo(first), hi(first) {}
+  HWY_INLINE Extent(const Row& low, const Row& high) : lo(low), hi(high) {}
+  HWY_INLINE void add(const Row& row) {
+    lo = least(lo, row);
+    hi = greatest(hi, row);
+  }
+  HWY_INLINE Extremes extremes() const { return {least_lane(lo), greatest_lane(hi)}; }
+};
+
+using Net = std::array<std::array<double, 8>, 8>;
+
+/// out[j] = row j of the transposed net; both N x N, lanes from N on repeat the last one.
+template <int N>
+HWY_INLINE void transpose(const Net& from, Net* to) {
+#if HWY_TARGET == HWY_SCALAR
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i < 8; ++i) (*to)[j][i] = from[std::min(i, N - 1)][j];
+#else
+  const hn::FixedTag<double, 2> pair;
+  for (int i = 0; i < N; i += 2)
+    for (int j = 0; j < N; j += 2) {
+      const auto a = hn::Load(pair, &from[i][j]), b = hn::Load(pair, &from[std::min(i + 1, N - 1)][j]);
+      hn::Store(hn::InterleaveLower(pair, a, b), pair, &(*to)[j][i]);
+      if (j + 1 < N) hn::Store(hn::InterleaveUpper(pair, a, b), pair, &(*to)[j + 1][i]);
+    }
+  for (int j = 0; j < N; ++j)
+    for (int i = N; i < 8; ++i) (*to)[j][i] = (*to)[j][N - 1];
+#endif
+}
+
+/// Samples the polynomial of a tile on the grid of nodes (x0 + hx node_k, y0 + hy node_l) and turns
+/// the samples into a Bernstein net. Returns its extremes.
+template <int N>
+HWY_INLINE Extremes expand_net(const double* a, int degree, const double* xs, const double* ys,
+                               const Interpolation& table, Net* net) {
+  HWY_ALIGN double columns[N][16];  // [k][j]: sum over i of a[i][j] x_k^i
+  for (int part = degree / 8; part >= 0; --part) {
+    const double* from = a + 8 * part;
+    Row sum[N];
+    const int top = degree - 8 * part;
+    for (int k = 0; k < N; ++k) sum[k] = Row::load(from + top * Tile::kRow);
+    for (int i = top - 1; i >= 0; --i) {
+      const Row row = Row::load(from + i * Tile::kRow);
+      for (int k = 0; k < N; ++k) sum[k] = sum[k] * Row::all(xs[k]) + row;
+    }
+    for (int k = 0; k < N; ++k) sum[k].store(&columns[k][8 * part]);
+  }
+  const Row y = Row::load(ys);
+  Row value[N];
+  for (int k = 0; k < N; ++k) value[k] = Row::all(columns[k][degree]);
+  for (int j = degree - 1; j >= 0; --j)
+    for (int k = 0; k < N; ++k) value[k] = value[k] * y + Row::all(columns[k][j]);
+  // To Bernstein coefficients across rows, then across lanes.
+  for (int j = 0; j < N; ++j) {
+    Row sum = value[0] * Row::all(table.matrix[j][0]);
+    for (int k = 1; k < N; ++k) sum = sum + value[k] * Row::all(table.matrix[j][k]);
+    sum.store((*net)[j].data());
+  }
+  Row by_lane[N];
+  for (int k = 0; k < N; ++k) by_lane[k] = Row::load(table.by_lane[k].data());
+  Row rows[N];
+  for (int j = 0; j < N; ++j) {
+    Row sum = by_lane[0] * Row::all((*net)[j][0]);
+    for (int k = 1; k < N; ++k) sum = sum + by_lane[k] * Row::all((*net)[j][k]);
+    rows[j] = sum;
+  }
+  Extent extent(rows[0]);
+  for (int j = 0; j < N; ++j) {
+    rows[j].store((*net)[j].data());
+    extent.add(rows[j]);
+  }
+  return extent.extremes();
+}
+
+/// De Casteljau's algorithm at 1/2 across the rows: sums of two, scaled at the end (powers of two
+/// change no rounding).
+template <int N>
+HWY_INLINE void halve_net(const Net& net, Net* lower, Net* upper, Extremes* extremes) {
+  Row t[N];
+  for (int i = 0; i < N; ++i) t[i] = Row::load(net[i].data());
+  Extent low(t[0]), high(t[N - 1]);
+  t[0].store((*lower)[0].data());
+  t[N - 1].store((*upper)[N - 1].data());
+  double scale = 1;
+  for (int r = 1; r < N; ++r) {
+    for (int j = 0; j < N - r; ++j) t[j] = t[j] + t[j + 1];
+    scale *= 0.5;
+    const Row s = Row::all(scale), first = t[0] * s, last = t[N - 1 - r] * s;
+    low.add(first);
+    high.add(last);
+    first.store((*lower)[r].data());
+    last.store((*upper)[N - 1 - r].data());
+  }
+  extremes[0] = low.extremes();
+  extremes[1] = high.extremes();
+}
+
+/// The extremes of differences of neighbours across rows and across lanes.
+template <int N>
+HWY_INLINE void extremes_of_differences(const Row* rows, const double* memory, Extremes* across_rows,
+                                        Extremes* across_lanes) {
+  Extent d(rows[1] - rows[0]);
+  for (int i = 1; i + 1 < N; ++i) d.add(rows[i + 1] - rows[i]);
+  *across_rows = d.extremes();
+  Extent e(Row::load_unaligned(memory + 1) - rows[0]);
+  for (int i = 1; i < N; ++i) e.add(Row::load_unaligned(memory + 8 * i + 1) - rows[i]);
+  // Lanes from N - 1 on have no neighbour.
+  e.lo = first_lanes(e.lo, Row::all(HUGE_VAL), N - 1);
+  e.hi = first_lanes(e.hi, Row::all(-HUGE_VAL), N - 1);
+  *across_lanes = e.extremes();
+}
+
+template <int N>
+HWY_INLINE void mean_slopes(const Net& net, double* across_rows, double* across_lanes) {
+  const Row difference = Row::load(net[N - 1].data()) - Row::load(net[0].data());
+  *across_rows = 0.5 / N * sum_of_lanes(first_lanes(difference, Row::all(0), N));
+  double sum = 0;
+  for (int i = 0; i < N; ++i) sum += net[i][N - 1] - net[i][0];
+  *across_lanes = 0.5 / N * sum;
+}
+
+/// Combines the nets with the rows of a matrix.
+template <int N>
+HWY_INLINE void combine_nets(const Net& f, const Net& g, const Matrix<2>& y, bool slopes,
+                             Preconditioned* result) {
+  HWY_ALIGN double memory[8 * N + 8];
+  for (int c = 0; c < 2; ++c) {
+    const Row alpha = Row::all(y[c][0]), beta = Row::all(y[c][1]);
+    Row rows[N];
+    rows[0] = alpha * Row::load(f[0].data()) + beta * Row::load(g[0].data());
+    Extent extent(rows[0]);
+    for (int i = 1; i < N; ++i) {
+      rows[i] = alpha * Row::load(f[i].data()) + beta * Row::load(g[i].data());
+      extent.add(rows[i]);
+    }
+    result->value[c] = extent.extremes();
+    if (!slopes) continue;
+    for (int i = 0; i < N; ++i) rows[i].store(memory + 8 * i);
+    rows[N - 1].store(memory + 8 * N);
+    extremes_of_differences<N>(rows, memory, &result->slope[c][0], &result->slope[c][1]);
+  }
+}
+
+/// The nets of the first derivatives across rows and across lanes (without the factor degree / 2),
+/// both raised to the degree of the net.
+template <int N>
+HWY_INLINE void raised_gradient(const Net& net, Net* across_rows, Net* across_lanes) {
+  constexpr double n = N - 1;
+  HWY_ALIGN double memory[8 * N + 16];
+  Row rows[N];
+  for (int i = 0; i < N; ++i) rows[i] = Row::load(net[i].data());
+  rows[0].store((*across_rows)[0].data());
+  Row before = rows[1] - rows[0];
+  before.store((*across_rows)[0].data());
+  for (int i = 1; i < N - 1; ++i) {
+    const Row d = rows[i + 1] - rows[i];
+    (before * Row::all(i / n) + d * Row::all(1 - i / n)).store((*across_rows)[i].data());
+    before = d;
+  }
+  before.store((*across_rows)[N - 1].data());
+  // memory[8 + j] = the difference of lanes j + 1 and j; lane -1 and lane N - 1 have weight zero.
+  HWY_ALIGN double weights[8];
+  for (int j = 0; j < 8; ++j) weights[j] = std::min(j, N - 1) / n;
+  const Row w = Row::load(weights), rest = Row::all(1) - w;
+  for (int i = 0; i < N; ++i) {
+    rows[i].store(memory);
+    memory[8] = memory[7];
+    const Row d = Row::load_unaligned(memory + 1) - rows[i];
+    d.store(memory + 8);
+    memory[7] = 0;
+    memory[8 + N - 1] = 0;
+    const Row shifted = Row::load_unaligned(memory + 7);
+    const Row raised = shifted * w + Row::load(memory + 8) * rest;
+    raised.store((*across_lanes)[i].data());
+    for (int j = N; j < 8; ++j) (*across_lanes)[i][j] = (*across_lanes)[i][N - 1];
+  }
+}
+
+template <int N>
+HWY_INLINE Extremes extremes_of(const Net& net) {
+  Extent extent(Row::load(net[0].data()));
+  for (int i = 1; i < N; ++i) extent.add(Row::load(net[i].data()));
+  return extent.extremes();
+}
+
+/// The extremes of second differences: twice across rows, twice across lanes, mixed.
+template <int N>
+HWY_INLINE void second_differences(const Net& net, Extremes* result) {
+  HWY_ALIGN double memory[8 * N + 16];
+  Row rows[N];
+  for (int i = 0; i < N; ++i) {
+    rows[i] = Row::load(net[i].data());
+    rows[i].store(memory + 8 * i);
+  }
+  Row::all(0).store(memory + 8 * N);
+  Extent twice_rows((rows[2] - rows[1]) - (rows[1] - rows[0]));
+  for (int i = 1; i + 2 < N; ++i)
+    twice_rows.add((rows[i + 2] - rows[i + 1]) - (rows[i + 1] - rows[i]));
+  result[0] = twice_rows.extremes();
+  Row slope[N];
+  Extent twice_lanes(Row::all(HUGE_VAL), Row::all(-HUGE_VAL));
+  for (int i = 0; i < N; ++i) {
+    const Row next = Row::load_unaligned(memory + 8 * i + 1);
+    slope[i] = next - rows[i];
+    twice_lanes.add((Row::load_unaligned(memory + 8 * i + 2) - next) - slope[i]);
+  }
+  twice_lanes.lo = first_lanes(twice_lanes.lo, Row::all(HUGE_VAL), N - 2);
+  twice_lanes.hi = first_lanes(twice_lanes.hi, Row::all(-HUGE_VAL), N - 2);
+  result[1] = twice_lanes.extremes();
+  Extent mixed(slope[1] - slope[0]);
+  for (int i = 1; i + 1 < N; ++i) mixed.add(slope[i + 1] - slope[i]);
+  mixed.lo = first_lanes(mixed.lo, Row::all(HUGE_VAL), N - 1);
+  mixed.hi = first_lanes(mixed.hi, Row::all(-HUGE_VAL), N - 1);
+  result[2] = mixed.extremes();
+}
+
+// One function for every size of net.
+
+template <class Run>
+HWY_INLINE void with_count(int count, Run run) {
+  switch (count) {
+    case 3: return run.template operator()<3>();
+    case 4: return run.template operator()<4>();
+    case 5: return run.template operator()<5>();
+    case 6: return run.template operator()<6>();
+    case 7: return run.template operator()<7>();
+    default: return run.template operator()<8>();
+  }
+}
+
+Extremes expand_patch(const double* a, int degree, const double* xs, const double* ys,
+                      const Interpolation& table, Net* net) {
+  Extremes result{};
+  with_count(table.count, [&]<int N>() HWY_ATTR {
+    result = expand_net<N>(a, degree, xs, ys, table, net);
+  });
+  return result;
+}
+
+void halve_patch(const Net& net, int count, double radius, Net* lower, Net* upper,
+                 Extremes* extremes) {
+  HWY_ALIGN Net low, high;
+  with_count(count, [&]<int N>() HWY_ATTR {
+    halve_net<N>(net, &low, &high, extremes);
+    if (!(extremes[0].lo > radius || extremes[0].hi < -radius)) transpose<N>(low, lower);
+    if (!(extremes[1].lo > radius || extremes[1].hi < -radius)) transpose<N>(high, upper);
+  });
+}
+
+void precondition(const Net& f, const Net& g, int count, Preconditioned* result) {
+  with_count(count, [&]<int N>() HWY_ATTR {
+    Matrix<2> j;
+    mean_slopes<N>(f, &j[0][0], &j[0][1]);
+    mean_slopes<N>(g, &j[1][0], &j[1][1]);
+    const double scale = 1 / (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
+    result->regular = scale > -1e300 && scale < 1e300;
+    const double s = result->regular ? scale : 1;
+    result->y = {{{j[1][1] * s, -j[0][1] * s}, {-j[1][0] * s, j[0][0] * s}}};
+    combine_nets<N>(f, g, result->y, result->regular, result);
+  });
+}
+
+void first_derivatives(const Net& net, int count, Extremes* across_rows, Extremes* across_lanes) {
+  with_count(count, [&]<int N>() HWY_ATTR {
+    HWY_ALIGN double memory[8 * N + 8];
+    Row rows[N];
+    for (int i = 0; i < N; ++i) {
+      rows[i] = Row::load(net[i].data());
+      rows[i].store(memory + 8 * i);
+    }
+    rows[N - 1].store(memory + 8 * N);
+    extremes_of_differences<N>(rows, memory, across_rows, across_lanes);
+  });
+}
+
+void precondition_gradient(const Net& net, int count, Preconditioned* result) {
+  with_count(count, [&]<int N>() HWY_ATTR {
+    HWY_ALIGN Net r, l;
+    raised_gradient<N>(net, &r, &l);
+    Matrix<2> h;
+    mean_slopes<N>(r, &h[0][0], &h[0][1]);
+    mean_slopes<N>(l, &h[1][0], &h[1][1]);
+    result->regular = false;
+    result->y = {{{h[1][1], -h[0][1]}, {-h[1][0], h[0][0]}}};
+    combine_nets<N>(r, l, result->y, false, result);
+  });
+}
+
+void second_derivatives(const Net& net, int count, Extremes* result) {
+  with_count(count, [&]<int N>() HWY_ATTR { second_differences<N>(net, result); });
+}
+
+}  // namespace encase::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace encase {
+namespace {
+
+HWY_EXPORT(expand_patch);
+HWY_EXPORT(halve_patch);
+HWY_EXPORT(precondition);
+HWY_EXPORT(first_derivatives);
+HWY_EXPORT(precondition_gradient);
+HWY_EXPORT(second_derivatives);
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
+constexpr double kTiny = 0x1p-1000;  // more than what gradual underflow can lose
+
+/// The Bernstein coefficients on [-1,1] of the polynomials that are 1 at one node and 0 at the
+/// others: products of linear factors, exactly, then rounded.
+Interpolation make_interpolation(int count) {
+  Interpolation table;
+  table.count = count;
+  const int n = count - 1;
+  for (int k = 0; k < count; ++k) {
+    const int mirror = n - k;
+    const double x = std::cos(std::numbers::pi * (2 * std::min(k, mirror) + 1) / (2 * count));
+    table.node[k] = k == mirror ? 0.0 : k < mirror ? -x : x;
+  }
+  for (int k = count; k < 8; ++k) table.node[k] = table.node[n];
+  std::vector<Rational> norms(count, Rational(0));
+  for (int k = 0; k < count; ++k) {
+    // Coefficients scaled by binomials: those of the product of l(s) = l(-1) (1-u) + l(1) u.
+    std::vector<Rational> product{Rational(1)};
+    for (int m = 0; m < count; ++m) {
+      if (m == k) continue;
+      const Rational step = Rational(table.node[k]) - Rational(table.node[m]);
+      const Rational at_minus = (-1 - Rational(table.node[m])) / step;
+      const Rational at_plus = (1 - Rational(table.node[m])) / step;
+      product.emplace_back(0);
+      for (std::size_t j = product.size() - 1; j > 0; --j)
+        product[j] = product[j] * at_minus + product[j - 1] * at_plus;
+      product[0] *= at_minus;
+    }
+    Integer choose = 1;
+    for (int j = 0; j <= n; ++j) {
+      const Rational entry = product[j] / Rational(choose);
+      table.matrix[j][k] = nearest_double(entry);
+      norms[j] += abs(entry);
+      choose = choose * (n - j) / (j + 1);
+    }
+  }
+  for (int k = 0; k < count; ++k)
+    for (int j = 0; j < 8; ++j) table.by_lane[k][j] = table.matrix[std::min(j, n)][k];
+  for (const Rational& norm : norms) table.norm = std::max(table.norm, norm.get_d() * kUp);
+  return table;
+}
+
+const Interpolation& interpolation(int count) {
+  static const std::array<Interpolation, 9> tables = [] {
+    std::array<Interpolation, 9> all;
+    for (int k = 3; k <= Patch::kMaxCount; ++k) all[k] = make_interpolation(k);
+    return all;
+  }();
+  return tables[count];
+}
+
+/// Every coefficient of a net may be off by `change`.
+void add_rounding(Patch* patch, double change) {
+  const double n = patch->count - 1;
+  patch->radius = (patch->radius + change) * kUp;
+  for (double& r : patch->slope_radius) r = (r + n * change) * kUp;
+  for (double& r : patch->bend_radius) r = (r + n * n * change) * kUp;
+}
+
+std::optional<Sign> sign_of_extremes(const Extremes& e, double radius) {
+  if (e.lo > radius) return Sign::Positive;
+  if (e.hi < -radius) return Sign::Negative;
+  return std::nullopt;
+}
+
+/// factor * extremes, widened by `radius` and the roundings.
+Extremes widened(const Extremes& e, double factor, double radius) {
+  const double lo = e.lo * factor, hi = e.hi * factor;
+  const double slack = radius * kUp + 0x1p-50 * std::max(std::fabs(lo), std::fabs(hi)) + kTiny;
+  return {lo - slack, hi + slack};
+}
+
+}  // namespace
+
+const InterpolationLoss& interpolation_loss(int k) {
+  // s^k minus its interpolant is w(s) h(s), where w is the product of (s - node), and h is the
+  // complete homogeneous polynomial of degree k - 8 in s and the nodes. The nodes come in pairs
+  // +-x, so that h = sum of e_j s^(k-8-2j) with e_j that of degree j in the squares: all
+  // coefficients are positive, and h and its derivatives are largest at 1. w is Chebyshev's T_8 /
+  // 128 but for the rounding of the nodes: its derivatives are at most 64/128 and 1344/128.
+  static const auto table = [] {
+    std::array<InterpolationLoss, Tile::kMaxDegree + 1> losses{};
+    const auto& node = interpolation(8).node;
+    std::array<double, 4> e{1, 0, 0, 0};
+    for (int i = 0; i < 4; ++i)
+      for (int j = 1; j < 4; ++j) e[j] += e[j - 1] * node[i] * node[i];
+    for (int power = 8; power <= Tile::kMaxDegree; ++power) {
+      double h = 0, slope = 0, bend = 0;
+      for (int j = 0; 2 * j <= power - 8; ++j) {
+        const double m = power - 8 - 2 * j;
+        h += e[j];
+        slope += e[j] * m;
+        bend += e[j] * m * (m - 1);
+      }
+      constexpr double w = 1.0 / 128, w1 = 64.0 / 128, w2 = 1344.0 / 128, up = 1.00001;
+      losses[power] = {w * h * up, (w1 * h + w * slope) * up,
+                       (w2 * h + 2 * w1 * slope + w * bend) * up};
+    }
+    return losses;
+  }();
+  return table[k];
+}
+
+int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
+
+double interpolation_loss(const Tile& tile, double part) {
+  double sum = 0;
+  for (int k = Tile::kMaxDegree - 8; k >= 0; --k) sum = sum * part + tile.tail[k][0];
+  const double square = part * part, fourth = square * square;
+  return sum * fourth * fourth;
+}
+
+void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
+  const Interpolation& table = interpolation(count);
+  patch->count = table.count;
+  patch->rows_axis = 0;
+  HWY_ALIGN std::array<std::array<double, 8>, 2> at;
+  Point<2> part;
+  for (int i = 0; i < 2; ++i) {
+    const Centered chart = centered(box.lo[i], box.hi[i]);
+    const double origin = (chart.center - tile.center[i]) / tile.half[i];
+    part[i] = chart.half / tile.half[i];
+    for (int k = 0; k < 8; ++k) at[i][k] = origin + part[i] * table.node[k];
+  }
+  const Extremes extremes = HWY_DYNAMIC_DISPATCH(expand_patch)(
+      tile.a[0].data(), tile.degree, at[0].data(), at[1].data(), table, &patch->b);
+  patch->lo = extremes.lo;
+  patch->hi = extremes.hi;
+  // The loss by the low degree and the tile's own error, in the coordinates of the box.
+  const double fraction = std::max(part[0], part[1]) * kUp;
+  std::array<double, 3> loss{};
+  if (tile.degree >= 8) {
+    for (int k = Tile::kMaxDegree - 8; k >= 0; --k)
+      for (int i = 0; i < 3; ++i) loss[i] = loss[i] * fraction + tile.tail[k][i];
+    const double square = fraction * fraction, eighth = square * square * square * square;
+    for (double& x : loss) x *= eighth * kUp;
+  }
+  patch->radius = loss[0] + tile.error;
+  for (int i = 0; i < 2; ++i) patch->slope_radius[i] = loss[1] + tile.slope_error * part[i];
+  patch->bend_radius = {loss[2] + tile.bend_error * part[0] * part[0],
+                        loss[2] + tile.bend_error * part[1] * part[1],
+                        loss[2] + tile.bend_error * part[0] * part[1]};
+  // Samples: Horner's rule twice, at points that are off by less than 2^-50; then two matrix
+  // products.
+  const double n = tile.degree;
+  const double sample = 1.01 * kUnit * (4 * n + 2) * tile.sum + 0x1p-49 * tile.slope;
+  const double products = 1.01 * kUnit * 2 * (table.count + 2) * tile.sum;
+  add_rounding(patch, table.norm * table.norm * (sample + products) * kUp + kTiny);
+}
+
+void halve(const Patch& patch, bool whole, Patch* lower, Patch* upper) {
+  Extremes extremes[2];
+  // The halves' radius: each of count - 1 averages rounds once, relative to the largest coefficient.
+  const double change = 1.01 * patch.count * kUnit * patch.magnitude() + kTiny;
+  const double n = patch.count - 1;
+  const double radius = (patch.radius + change) * kUp;
+  HWY_DYNAMIC_DISPATCH(halve_patch)
+  (patch.b, patch.count, whole ? HUGE_VAL : radius, &lower->b, &upper->b, extremes);
+  // Across the new rows and lanes: the axes change places.
+  const std::array<double, 2> slope{(patch.slope_radius[1] + n * change) * kUp,
+                                    (0.5 * patch.slope_radius[0] + n * change) * kUp};
+  const std::array<double, 3> bend{(patch.bend_radius[1] + n * n * change) * kUp,
+                                   (0.25 * patch.bend_radius[0] + n * n * change) * kUp,
+                                   (0.5 * patch.bend_radius[2] + n * n * change) * kUp};
+  int k = 0;
+  for (Patch* child : {lower, upper}) {
+    child->count = patch.count;
+    child->rows_axis = 1 - patch.rows_axis;
+    child->lo = extremes[k].lo;
+    child->hi = extremes[k].hi;
+    child->radius = radius;
+    child->slope_radius = slope;
+    child->bend_radius = bend;
+    ++k;
+  }
+}
+
+namespace {
+
+/// A positive v with E v < quality v, if iteration finds one: the fixed point of v = 1 + E v is such
+/// a vector if there is one.
+std::optional<std::array<double, 2>> weights_of(const Matrix<2>& e, double quality) {
+  std::array<double, 2> v{1, 1};
+  for (int round = 0; round < 60; ++round) {
+    const std::array<double, 2> image{e[0][0] * v[0] + e[0][1] * v[1],
+                                      e[1][0] * v[0] + e[1][1] * v[1]};
+    if (image[0] * kUp < quality * v[0] && image[1] * kUp < quality * v[1]) return v;
+    if (!(image[0] + image[1] < 1e6)) return std::nullopt;
+    v = {1 + image[0], 1 + image[1]};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+SystemVerdict test_system(const Patch& f, const Patch& g, double quality) {
+  SystemVerdict verdict;
+  Preconditioned extremes;
+  HWY_DYNAMIC_DISPATCH(precondition)(f.b, g.b, f.count, &extremes);
+  const Matrix<2>& y = extremes.y;
+  const double n = f.count - 1;
+  std::array<double, 2> rounding;
+  for (int c = 0; c < 2; ++c) {
+    const double alpha = std::fabs(y[c][0]), beta = std::fabs(y[c][1]);
+    rounding[c] = 3 * kUnit * (alpha * f.magnitude() + beta * g.magnitude()) * kUp + kTiny;
+    const double radius = (alpha * f.radius + beta * g.radius + rounding[c]) * kUp;
+    if (sign_of_extremes(extremes.value[c], radius)) {
+      verdict.excluded = true;
+      return verdict;
+    }
+  }
+  if (!extremes.regular) return verdict;
+  Contraction<2> contraction;
+  for (int c = 0; c < 2; ++c) {
+    const double alpha = std::fabs(y[c][0]), beta = std::fabs(y[c][1]);
+    for (int i = 0; i < 2; ++i) {  // across rows, across lanes
+      const Extremes& e = extremes.slope[c][i];
+      const double center = (i == 0) == (c == 0) ? 1.0 : 0.0;
+      const double lo = 0.5 * n * e.lo, hi = 0.5 * n * e.hi;
+      const double deviation = std::max(std::fabs(lo - center), std::fabs(hi - center));
+      const double radius = alpha * f.slope_radius[i] + beta * g.slope_radius[i];
+      // Differences and products round; the deviation is rounded up.
+      const double bound =
+          (deviation + radius + n * rounding[c] + 4 * kUnit * (std::fabs(lo) + std::fabs(hi))) * kUp +
+          kTiny;
+      if (!(bound < 1e6)) return verdict;
+      contraction.bound[c][i] = bound;
+      contraction.preconditioner[c][i] = y[c][i];
+    }
+  }
+  if (f.rows_axis == 1) {
+    // In the order x, y: the rows of Y F, and so of the preconditioner, change places with the axes.
+    std::swap(contraction.preconditioner[0], contraction.preconditioner[1]);
+    std::swap(contraction.bound[0], contraction.bound[1]);
+    for (auto& row : contraction.bound) std::swap(row[0], row[1]);
+  }
+  const auto weights = weights_of(contraction.bound, quality);
+  if (!weights) return verdict;
+  contraction.weights = *weights;
+  verdict.contraction = contraction;
+  return verdict;
+}
+
+namespace {
+
+/// One of the two combinations of the partial derivatives that the mean Hessian's adjugate suggests
+/// keeps a sign.
+bool gradient_excluded(const Patch& patch) {
+  Preconditioned extremes;
+  HWY_DYNAMIC_DISPATCH(precondition_gradient)(patch.b, patch.count, &extremes);
+  const Matrix<2>& y = extremes.y;
+  // Without the factor n / 2. Differences are at most 2 M; difference, weights and products round.
+  const double factor = 0.5 * (patch.count - 1);
+  const double rounding = 8 * kUnit * 2 * patch.magnitude();
+  for (int c = 0; c < 2; ++c) {
+    double radius = kTiny;
+    for (int i = 0; i < 2; ++i)
+      radius += std::fabs(y[c][i]) * (patch.slope_radius[i] / factor + 2 * rounding) * kUp;
+    if (sign_of_extremes(extremes.value[c], radius * kUp)) return true;
+  }
+  return false;
+}
+
+/// f keeps a sign and no point is a local maximum of |f|.
+bool no_extremum(const Patch& patch, Sign sign) {
+  Extremes second[3];
+  HWY_DYNAMIC_DISPATCH(second_derivatives)(patch.b, patch.count, second);
+  const double n = patch.count - 1, twice = 0.25 * n * (n - 1), mixed = 0.25 * n * n;
+  const double rounding = 3 * kUnit * 4 * patch.magnitude();
+  const Extremes rr = widened(second[0], twice, patch.bend_radius[0] + twice * rounding);
+  const Extremes ll = widened(second[1], twice, patch.bend_radius[1] + twice * rounding);
+  const Extremes rl = widened(second[2], mixed, patch.bend_radius[2] + mixed * rounding);
+  if (sign_of_extremes(rr, 0) == sign || sign_of_extremes(ll, 0) == sign) return true;
+  const double product =
+      std::max(std::max(rr.lo * ll.lo, rr.lo * ll.hi), std::max(rr.hi * ll.lo, rr.hi * ll.hi));
+  const double least_mixed = rl.lo > 0 ? rl.lo : rl.hi < 0 ? -rl.hi : 0.0;
+  const double square = least_mixed * least_mixed * (1 - 0x1p-40);
+  return product <= 0 ? square > 0 || product * (1 - 0x1p-40) < -0x1p-900
+                      : product * kUp + 0x1p-900 < square;
+}
+
+}  // namespace
+
+bool no_relevant_critical_point(const Patch& patch) {
+  Extremes slope[2];
+  HWY_DYNAMIC_DISPATCH(first_derivatives)(patch.b, patch.count, &slope[0], &slope[1]);
+  const double factor = 0.5 * (patch.count - 1);
+  for (int i = 0; i < 2; ++i) {
+    const Extremes e = widened(slope[i], factor, patch.slope_radius[i] + factor * 4 * kUnit * patch.magnitude());
+    if (sign_of_extremes(e, 0)) return true;
+  }
+  if (gradient_excluded(patch)) return true;
+  const auto sign = patch.sign();
+  return sign && no_extremum(patch, *sign);
+}
+
+}  // namespace encase
+#endif
