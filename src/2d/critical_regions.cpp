@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "common/box_tests.hpp"
+#include "common/plane_subdivision.hpp"
 
 namespace encase {
 
@@ -37,34 +38,27 @@ std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
   return component;
 }
 
-CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, const Box<2>& box,
+CriticalRegions critical_regions(TiledPolynomial& f, int curve,
                                  const std::vector<Line>& half_planes,
-                                 const SubdivisionLimits& asked, Kernel& kernel) {
+                                 const SubdivisionLimits& limits, Kernel& kernel) {
   CriticalRegions result;
-  // Where two branches stay close together, what tells them apart is small beside f.
-  SubdivisionLimits limits = asked;
-  limits.sharp_below = std::max(asked.sharp_below, 0x1p-9);
-  result.root_box = subdivision_root(box);
+  result.root_box = f.box();
   // Small regions are cut by fewer lines but reached by more rays, and most saddles drop out on the
   // way; a region is not split below this width once f has a sign on it.
   const double fine = result.root_box.largest_width() * 0x1p-6;
   constexpr int kRegion = 0;
-  const auto visit = [&](const std::array<Bernstein<2>, 1>& nets, const Box<2>& leaf) {
+  const auto visit = [&](const PlaneSubdivision<1>::Node& node) {
+    if (no_relevant_critical_point(node.patch[0])) return cover::kExcluded;
     // Boxes well below the usual size lie where branches stay close together.
-    const bool small = leaf.largest_width() <= 0x1p-3 * fine;
-    if (no_relevant_critical_point(nets[0], small ? Effort::Thorough : Effort::Quick))
+    if (node.box.largest_width() <= 0x1p-3 * fine &&
+        no_relevant_critical_point(f.polynomial(), node.box, kernel))
       return cover::kExcluded;
-    // Across the axis along which f changes more, weighted by the width.
-    const double x = variation(nets[0], 0) * leaf.width(0),
-                 y = variation(nets[0], 1) * leaf.width(1);
-    const int axis = x >= y ? 0 : 1;
-    if (leaf.width(axis) <= fine && sign_on_cube(nets[0])) return kRegion;
-    return cover::kSplitX - axis;
+    if (node.box.largest_width() <= fine && node.patch[0].sign()) return kRegion;
+    return cover::kSplitX;
   };
-  const Subdivision<2> tree =
-      subdivide<2, 1>({&f}, result.root_box, half_planes, limits, kernel, visit);
-  result.boxes = tree.size();
-  result.tokens = tree.tokens();
+  PlaneSubdivision<1> subdivision({&f}, result.root_box, half_planes, limits, kernel);
+  result.tokens = subdivision.run(visit);
+  result.boxes = subdivision.boxes();
   result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
 
   const std::vector<Box<2>> boxes = leaves(result.root_box, result.tokens, kRegion);
@@ -77,7 +71,7 @@ CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, cons
       // f was proved to have one sign on the leaf, and touching boxes share points: its exact sign
       // at any point is that of the whole component.
       const Point<2> center = boxes[next].center();
-      const Sign sign = f.sign_at({Rational(center[0]), Rational(center[1])}, kernel);
+      const Sign sign = f.polynomial().sign_at({Rational(center[0]), Rational(center[1])}, kernel);
       result.regions.push_back({curve, sign, {}});
     }
     result.regions[k].boxes.push_back(boxes[next]);
@@ -85,6 +79,13 @@ CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, cons
     ++next;
   }
   return result;
+}
+
+CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, const Box<2>& box,
+                                 const std::vector<Line>& half_planes,
+                                 const SubdivisionLimits& limits, Kernel& kernel) {
+  TiledPolynomial tiled(f, subdivision_root(box), kernel);
+  return critical_regions(tiled, curve, half_planes, limits, kernel);
 }
 
 }  // namespace encase

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/subdivision.hpp"
+#include "common/tile.hpp"
 #include "encase/encasement.hpp"
 
 namespace encase {
@@ -19,10 +20,14 @@ struct CriticalRegions {
   int boxes = 0;
 };
 
-/// Finds boxes that contain every local maximum of |f| in the part of `box` on the negative side of
+/// Finds boxes that contain every local maximum of |f| in the part of a box (that of
+/// the tiles) on the negative side of
 /// the half planes, f being of one sign on each, joined to connected regions (thesis 3.1, with
 /// Bernstein enclosures in place of its quadratic Taylor bound). The curve has no singular point
 /// outside the unresolved boxes. `curve` is written into the regions.
+CriticalRegions critical_regions(TiledPolynomial& f, int curve,
+                                 const std::vector<Line>& half_planes,
+                                 const SubdivisionLimits& limits, Kernel& kernel);
 CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, const Box<2>& box,
                                  const std::vector<Line>& half_planes,
                                  const SubdivisionLimits& limits, Kernel& kernel);

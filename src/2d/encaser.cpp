@@ -141,6 +141,9 @@ void Encaser::use_region(const Region& region) {
   bounds_ = region.bounding_box();
   sides_.clear();
   for (int k = 0; k < region.side_count(); ++k) sides_.push_back(region.side(k));
+  const Box<2> root = subdivision_root(bounds_);
+  tiled_.clear();
+  for (const FilteredPolynomial<2>& f : polynomials_) tiled_.emplace_back(f, root, kernel_);
   partition_ = std::make_unique<Partition>(polynomials_, kernel_);
 }
 
@@ -251,8 +254,8 @@ void Encaser::isolate_crossings() {
   const int n = static_cast<int>(polynomials_.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) {
-      RootIsolation<2> roots = isolate_roots<2>({&polynomials_[i], &polynomials_[j]}, bounds_,
-                                                sides_, limits("isolating crossings"), kernel_);
+      RootIsolation<2> roots =
+          isolate_roots(tiled_[i], tiled_[j], sides_, limits("isolating crossings"), kernel_);
       result_.statistics.root_boxes += roots.boxes;
       const int first = static_cast<int>(partition_->crossings.size());
       for (const Box<2>& root : roots.roots) {
@@ -300,8 +303,8 @@ void Encaser::report_concurrency() {
 
 void Encaser::find_critical_regions() {
   for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
-    CriticalRegions found = critical_regions(polynomials_[c], c, bounds_, sides_,
-                                             limits("finding critical regions"), kernel_);
+    CriticalRegions found =
+        critical_regions(tiled_[c], c, sides_, limits("finding critical regions"), kernel_);
     result_.statistics.critical_boxes += found.boxes;
     const int first = static_cast<int>(partition_->critical_regions.size());
     for (int& token : found.tokens)

@@ -9,6 +9,7 @@
 #include "2d/partition.hpp"
 #include "2d/splitting_lines.hpp"
 #include "common/subdivision.hpp"
+#include "common/tile.hpp"
 #include "encase/encasement.hpp"
 
 namespace encase {
@@ -58,6 +59,7 @@ class Encaser {
   Kernel kernel_;
   Encasement result_;
   std::vector<FilteredPolynomial<2>> polynomials_;
+  std::vector<TiledPolynomial> tiled_;  // the same, over the box of region_used
   std::vector<Line> sides_;  // of region_used
   Box<2> bounds_;            // of region_used
   std::unique_ptr<Partition> partition_;

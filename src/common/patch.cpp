@@ -466,11 +466,16 @@ const InterpolationLoss& interpolation_loss(int k) {
 
 int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
 
-double interpolation_loss(const Tile& tile, double part) {
-  double sum = 0;
-  for (int k = Tile::kMaxDegree - 8; k >= 0; --k) sum = sum * part + tile.tail[k][0];
-  const double square = part * part, fourth = square * square;
-  return sum * fourth * fourth;
+InterpolationLoss interpolation_loss(const Tile& tile, double part) {
+  InterpolationLoss sum{0, 0, 0};
+  for (int k = tile.degree; k >= 8; --k) {
+    const InterpolationLoss& power = interpolation_loss(k);
+    const double size = tile.high_terms[k - 8];
+    sum = {sum.value * part + size * power.value, sum.slope * part + size * power.slope,
+           sum.bend * part + size * power.bend};
+  }
+  const double square = part * part, eighth = square * square * square * square * kUp;
+  return {sum.value * eighth, sum.slope * eighth, sum.bend * eighth};
 }
 
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
@@ -491,18 +496,12 @@ void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
   patch->hi = extremes.hi;
   // The loss by the low degree and the tile's own error, in the coordinates of the box.
   const double fraction = std::max(part[0], part[1]) * kUp;
-  std::array<double, 3> loss{};
-  if (tile.degree >= 8) {
-    for (int k = Tile::kMaxDegree - 8; k >= 0; --k)
-      for (int i = 0; i < 3; ++i) loss[i] = loss[i] * fraction + tile.tail[k][i];
-    const double square = fraction * fraction, eighth = square * square * square * square;
-    for (double& x : loss) x *= eighth * kUp;
-  }
-  patch->radius = loss[0] + tile.error;
-  for (int i = 0; i < 2; ++i) patch->slope_radius[i] = loss[1] + tile.slope_error * part[i];
-  patch->bend_radius = {loss[2] + tile.bend_error * part[0] * part[0],
-                        loss[2] + tile.bend_error * part[1] * part[1],
-                        loss[2] + tile.bend_error * part[0] * part[1]};
+  const InterpolationLoss loss = interpolation_loss(tile, fraction);
+  patch->radius = loss.value + tile.error;
+  for (int i = 0; i < 2; ++i) patch->slope_radius[i] = loss.slope + tile.slope_error * part[i];
+  patch->bend_radius = {loss.bend + tile.bend_error * part[0] * part[0],
+                        loss.bend + tile.bend_error * part[1] * part[1],
+                        loss.bend + tile.bend_error * part[0] * part[1]};
   // Samples: Horner's rule twice, at points that are off by less than 2^-50; then two matrix
   // products.
   const double n = tile.degree;
@@ -540,18 +539,16 @@ void halve(const Patch& patch, bool whole, Patch* lower, Patch* upper) {
 
 namespace {
 
-/// A positive v with E v < quality v, if iteration finds one: the fixed point of v = 1 + E v is such
-/// a vector if there is one.
+/// A positive v with E v < quality v, if there is one: with it (quality I - E) v is a multiple of
+/// (1, 1).
 std::optional<std::array<double, 2>> weights_of(const Matrix<2>& e, double quality) {
-  std::array<double, 2> v{1, 1};
-  for (int round = 0; round < 60; ++round) {
-    const std::array<double, 2> image{e[0][0] * v[0] + e[0][1] * v[1],
-                                      e[1][0] * v[0] + e[1][1] * v[1]};
-    if (image[0] * kUp < quality * v[0] && image[1] * kUp < quality * v[1]) return v;
-    if (!(image[0] + image[1] < 1e6)) return std::nullopt;
-    v = {1 + image[0], 1 + image[1]};
-  }
-  return std::nullopt;
+  const double a = quality - e[0][0], b = quality - e[1][1];
+  if (!(a > 0 && b > 0 && a * b > e[0][1] * e[1][0])) return std::nullopt;
+  const double largest = std::max(b + e[0][1], a + e[1][0]);
+  const std::array<double, 2> v{(b + e[0][1]) / largest, (a + e[1][0]) / largest};
+  for (int k = 0; k < 2; ++k)
+    if (!((e[k][0] * v[0] + e[k][1] * v[1]) * kUp < quality * v[k])) return std::nullopt;
+  return v;
 }
 
 }  // namespace

@@ -40,9 +40,16 @@ struct Patch {
 /// The number of coefficients in either variable that patches of polynomials up to a degree have.
 int patch_count(int degree);
 
-/// What the patch on a part of the tile's rectangle would lose by its low degree, for parts with
-/// half widths up to the fraction `part` of the tile's.
-double interpolation_loss(const Tile& tile, double part);
+/// What replacing a monomial s^k, k >= 8, by its interpolant of degree 7 costs on [-1,1]: bounds on
+/// the difference and its first two derivatives.
+struct InterpolationLoss {
+  double value, slope, bend;
+};
+const InterpolationLoss& interpolation_loss(int k);
+
+/// The same for a tile's polynomial on parts of its rectangle with half widths up to the fraction
+/// `part` of the tile's, in the coordinates of the part.
+InterpolationLoss interpolation_loss(const Tile& tile, double part);
 
 /// The patch with `count` coefficients in either variable (at least patch_count of the tile's degree)
 /// on a box inside the tile's rectangle, rows along x.
@@ -63,12 +70,5 @@ SystemVerdict test_system(const Patch& f, const Patch& g, double quality);
 
 /// As the function on nets in box_tests.hpp, with little effort.
 bool no_relevant_critical_point(const Patch& patch);
-
-/// What replacing a monomial s^k, k >= 8, by its interpolant of degree 7 costs on [-1,1]: bounds on
-/// the difference and its first two derivatives.
-struct InterpolationLoss {
-  double value, slope, bend;
-};
-const InterpolationLoss& interpolation_loss(int k);
 
 }  // namespace encase

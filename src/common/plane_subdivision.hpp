@@ -260,7 +260,7 @@ bool PlaneSubdivision<N>::provide_patch(Node& node, int i) {
       double size = 0;
       for (int k = 0; k <= 2; ++k)
         for (int l = 0; k + l <= 2; ++l) size += std::fabs(tile->a[k][l]);
-      if (interpolation_loss(*tile, part) > 0x1p-4 * size) return false;
+      if (interpolation_loss(*tile, part).value > 0x1p-4 * size) return false;
     }
     expand(*tile, node.box, count_, &node.patch[i]);
     node.tile[i] = tile;
@@ -268,7 +268,7 @@ bool PlaneSubdivision<N>::provide_patch(Node& node, int i) {
     if (!coarse(node, i)) return true;
     // What is lost by the low degree shrinks with the box.
     if (interpolation_loss(*tile, 0.5 * std::max(node.box.width(0) / tile->half[0],
-                                                 node.box.width(1) / tile->half[1])) >
+                                                 node.box.width(1) / tile->half[1])).value >
         0.5 * node.patch[i].radius)
       return true;
   }

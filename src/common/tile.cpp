@@ -245,32 +245,18 @@ void add_up(Tile* tile, double relative) {
   if (!(tile->sum < 0x1p900) || !std::isfinite(tile->error + tile->bend_error)) claim_nothing(tile);
 }
 
-/// Taylor's coefficients around a corner of the unit square of the polynomial with coefficients
-/// |a[i][j]|, those of s^p t^q with p >= 8 (p counts rows, or columns if `by_columns`): they bound
-/// those of the tile's polynomial around any point of the rectangle. Adds what the interpolation of
-/// s^p costs.
-void add_tail(Tile* tile, bool by_columns) {
+/// Sums of |a[i][j]| over one index, and Taylor's shift of them to 1: for every exponent from 8 on a
+/// bound on the terms that have it, around any point of the rectangle.
+void add_high_terms(Tile* tile) {
   const int n = tile->degree;
-  std::array<std::array<double, 8>, 8> c{};  // c[p - 8][q]
-  for (int p = 8; p <= n; ++p)
-    for (int q = 0; p + q <= n; ++q)
-      c[p - 8][q] = std::fabs(by_columns ? tile->a[q][p] : tile->a[p][q]);
-  for (int p = n; p >= 8; --p)  // in the other variable
-    for (int i = 0; i < n - p; ++i)
-      for (int q = n - p - 1; q >= i; --q) c[p - 8][q] += c[p - 8][q + 1];
-  for (int i = 0; i < n; ++i)  // in this one; only what ends at p >= 8
-    for (int p = n - 1; p >= std::max(i, 8); --p)
-      for (int q = 0; p + 1 + q <= n; ++q) c[p - 8][q] += c[p - 7][q];
-  for (int p = 8; p <= n; ++p) {
-    const InterpolationLoss& loss = interpolation_loss(p);
-    for (int q = 0; p + q <= n; ++q) {
-      const double x = c[p - 8][q] * 1.0001;  // outweighs the roundings, and kReach is not needed
-      auto& tail = tile->tail[p + q - 8];
-      tail[0] += x * loss.value;
-      tail[1] += x * std::max(loss.slope, q * loss.value);
-      tail[2] += x * std::max({loss.bend, q * loss.slope, q * q * loss.value});
-    }
-  }
+  auto& high = tile->high_terms;
+  high.fill(0.0);
+  for (int i = 8; i <= n; ++i)
+    for (int j = 0; i + j <= n; ++j)
+      high[i - 8] += std::fabs(tile->a[i][j]) + std::fabs(tile->a[j][i]);
+  for (int i = 0; i < n; ++i)
+    for (int k = n - 1; k >= std::max(i, 8); --k) high[k - 8] += high[k - 7];
+  for (double& x : high) x *= 1.0001;  // outweighs the roundings
 }
 
 /// Takes the Taylor coefficients of a polynomial of degree n, the errors of which add up to at most
@@ -298,8 +284,7 @@ double fill(Tile* tile, int n, Coefficient coefficient, double error, double rel
   tile->slope_error = slope * kUp + n * error;
   tile->bend_error = bend * kUp + n * n * error;
   add_up(tile, relative);
-  for (auto& entry : tile->tail) entry.fill(0.0);
-  for (const bool by_columns : {false, true}) add_tail(tile, by_columns);
+  add_high_terms(tile);
   return dropped;
 }
 
@@ -317,7 +302,7 @@ bool serves(const Tile& tile, double dropped) {
   double size = 0;
   for (int i = 0; i <= 2; ++i)
     for (int j = 0; i + j <= 2; ++j) size += std::fabs(tile.a[i][j]);
-  return dropped <= 0x1p-14 * size && interpolation_loss(tile, 0.25) <= 0x1p-5 * size;
+  return dropped <= 0x1p-14 * size && interpolation_loss(tile, 0.25).value <= 0x1p-5 * size;
 }
 
 }  // namespace

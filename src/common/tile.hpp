@@ -36,11 +36,10 @@ struct Tile {
   double slope_error = 0;  ///< |de/ds_k| on the rectangle
   double bend_error = 0;   ///< the second derivatives of e on the rectangle
   double value_error = 0;  ///< of TiledPolynomial::value on the rectangle
-  /// What is lost where the polynomial of the tile is replaced, on a part of the rectangle whose
-  /// half width is the fraction r of the tile's, by its interpolant of degree 7 in either variable
-  /// (common/patch.hpp): at most sum tail[k][0] r^(8+k) of the value, [1] of a partial derivative
-  /// and [2] of a second one, in the part's own coordinates.
-  std::array<std::array<double, 3>, kMaxDegree - 7> tail{};
+  /// For what is lost where the polynomial of the tile is replaced, on a part of the rectangle, by
+  /// its interpolant of degree 7 in either variable (common/patch.hpp): entry k bounds the sums of
+  /// the absolute values of the terms with s_0^(8+k), and with s_1^(8+k), around any point.
+  std::array<double, kMaxDegree - 7> high_terms{};
 };
 
 /// A polynomial with tiles that cover a box: one where its degree is low or the box is small, else
