@@ -62,6 +62,7 @@ class Encaser {
   std::vector<TiledPolynomial> tiled_;  // the same, over the box of region_used
   std::vector<Line> sides_;  // of region_used
   Box<2> bounds_;            // of region_used
+  std::vector<Line> sides_;             // of region_used
   std::unique_ptr<Partition> partition_;
   OpenCell first_cell_;
   std::vector<Finished> finished_;

@@ -46,7 +46,8 @@ class PlaneRoots {
   std::optional<Box<2>> enclose(const Tiles& tiles, const Box<2>& around, const Contraction<2>& c,
                                 Point<2> x) const;
   std::optional<Box<2>> krawczyk_box(const Box<2>& around, const Contraction<2>& c,
-                                     const Point<2>& x, const std::array<double, 2>& residual) const;
+                                     const Point<2>& x,
+                                     const std::array<double, 2>& residual) const;
 
   std::array<TiledPolynomial*, 2> system_;
   Kernel& kernel_;
@@ -61,7 +62,8 @@ std::optional<PlaneRoots::Step> PlaneRoots::newton_step(const Tiles& tiles, cons
   std::array<double, 2> value;
   for (int i = 0; i < 2; ++i) {
     const Tile& tile = *tiles[i];
-    const Point<2> s{(x[0] - tile.center[0]) / tile.half[0], (x[1] - tile.center[1]) / tile.half[1]};
+    const Point<2> s{(x[0] - tile.center[0]) / tile.half[0],
+                     (x[1] - tile.center[1]) / tile.half[1]};
     const auto jet = value_and_gradient(tile, s);
     value[i] = values ? (*values)[i] : jet[0];
     step.jacobian[i] = {jet[1] / tile.half[0], jet[2] / tile.half[1]};
@@ -239,8 +241,8 @@ std::optional<int> PlaneRoots::near(const PlaneSubdivision<2>::Node& node,
 }  // namespace
 
 RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
-                               const std::vector<Line>& half_planes, const SubdivisionLimits& limits,
-                               Kernel& kernel) {
+                               const std::vector<Line>& half_planes,
+                               const SubdivisionLimits& limits, Kernel& kernel) {
   RootIsolation<2> result;
   result.root_box = f.box();
   PlaneRoots roots(f, g, kernel);

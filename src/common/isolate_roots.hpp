@@ -41,7 +41,7 @@ RootIsolation<2> isolate_roots<2>(const System<2>& system, const Box<2>& box,
 
 /// The same in the plane, for polynomials with tiles that cover one common box.
 RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
-                               const std::vector<Line>& half_planes, const SubdivisionLimits& limits,
-                               Kernel& kernel);
+                               const std::vector<Line>& half_planes,
+                               const SubdivisionLimits& limits, Kernel& kernel);
 
 }  // namespace encase

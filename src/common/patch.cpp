@@ -74,7 +74,8 @@ HWY_INLINE void transpose(const Net& from, Net* to) {
   const hn::FixedTag<double, 2> pair;
   for (int i = 0; i < N; i += 2)
     for (int j = 0; j < N; j += 2) {
-      const auto a = hn::Load(pair, &from[i][j]), b = hn::Load(pair, &from[std::min(i + 1, N - 1)][j]);
+      const auto a = hn::Load(pair, &from[i][j]),
+                 b = hn::Load(pair, &from[std::min(i + 1, N - 1)][j]);
       hn::Store(hn::InterleaveLower(pair, a, b), pair, &(*to)[j][i]);
       if (j + 1 < N) hn::Store(hn::InterleaveUpper(pair, a, b), pair, &(*to)[j + 1][i]);
     }
@@ -152,8 +153,8 @@ HWY_INLINE void halve_net(const Net& net, Net* lower, Net* upper, Extremes* extr
 
 /// The extremes of differences of neighbours across rows and across lanes.
 template <int N>
-HWY_INLINE void extremes_of_differences(const Row* rows, const double* memory, Extremes* across_rows,
-                                        Extremes* across_lanes) {
+HWY_INLINE void extremes_of_differences(const Row* rows, const double* memory,
+                                        Extremes* across_rows, Extremes* across_lanes) {
   Extent d(rows[1] - rows[0]);
   for (int i = 1; i + 1 < N; ++i) d.add(rows[i + 1] - rows[i]);
   *across_rows = d.extremes();
@@ -274,21 +275,26 @@ HWY_INLINE void second_differences(const Net& net, Extremes* result) {
 template <class Run>
 HWY_INLINE void with_count(int count, Run run) {
   switch (count) {
-    case 3: return run.template operator()<3>();
-    case 4: return run.template operator()<4>();
-    case 5: return run.template operator()<5>();
-    case 6: return run.template operator()<6>();
-    case 7: return run.template operator()<7>();
-    default: return run.template operator()<8>();
+    case 3:
+      return run.template operator()<3>();
+    case 4:
+      return run.template operator()<4>();
+    case 5:
+      return run.template operator()<5>();
+    case 6:
+      return run.template operator()<6>();
+    case 7:
+      return run.template operator()<7>();
+    default:
+      return run.template operator()<8>();
   }
 }
 
 Extremes expand_patch(const double* a, int degree, const double* xs, const double* ys,
                       const Interpolation& table, Net* net) {
   Extremes result{};
-  with_count(table.count, [&]<int N>() HWY_ATTR {
-    result = expand_net<N>(a, degree, xs, ys, table, net);
-  });
+  with_count(table.count,
+             [&]<int N>() HWY_ATTR { result = expand_net<N>(a, degree, xs, ys, table, net); });
   return result;
 }
 
@@ -512,7 +518,8 @@ void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
 
 void halve(const Patch& patch, bool whole, Patch* lower, Patch* upper) {
   Extremes extremes[2];
-  // The halves' radius: each of count - 1 averages rounds once, relative to the largest coefficient.
+  // The halves' radius: each of count - 1 averages rounds once, relative to the largest
+  // coefficient.
   const double change = 1.01 * patch.count * kUnit * patch.magnitude() + kTiny;
   const double n = patch.count - 1;
   const double radius = (patch.radius + change) * kUp;
@@ -581,7 +588,8 @@ SystemVerdict test_system(const Patch& f, const Patch& g, double quality) {
       const double radius = alpha * f.slope_radius[i] + beta * g.slope_radius[i];
       // Differences and products round; the deviation is rounded up.
       const double bound =
-          (deviation + radius + n * rounding[c] + 4 * kUnit * (std::fabs(lo) + std::fabs(hi))) * kUp +
+          (deviation + radius + n * rounding[c] + 4 * kUnit * (std::fabs(lo) + std::fabs(hi))) *
+              kUp +
           kTiny;
       if (!(bound < 1e6)) return verdict;
       contraction.bound[c][i] = bound;
@@ -589,7 +597,8 @@ SystemVerdict test_system(const Patch& f, const Patch& g, double quality) {
     }
   }
   if (f.rows_axis == 1) {
-    // In the order x, y: the rows of Y F, and so of the preconditioner, change places with the axes.
+    // In the order x, y: the rows of Y F, and so of the preconditioner, change places with the
+    // axes.
     std::swap(contraction.preconditioner[0], contraction.preconditioner[1]);
     std::swap(contraction.bound[0], contraction.bound[1]);
     for (auto& row : contraction.bound) std::swap(row[0], row[1]);
@@ -646,7 +655,8 @@ bool no_relevant_critical_point(const Patch& patch) {
   HWY_DYNAMIC_DISPATCH(first_derivatives)(patch.b, patch.count, &slope[0], &slope[1]);
   const double factor = 0.5 * (patch.count - 1);
   for (int i = 0; i < 2; ++i) {
-    const Extremes e = widened(slope[i], factor, patch.slope_radius[i] + factor * 4 * kUnit * patch.magnitude());
+    const Extremes e =
+        widened(slope[i], factor, patch.slope_radius[i] + factor * 4 * kUnit * patch.magnitude());
     if (sign_of_extremes(e, 0)) return true;
   }
   if (gradient_excluded(patch)) return true;

@@ -51,8 +51,8 @@ const InterpolationLoss& interpolation_loss(int k);
 /// `part` of the tile's, in the coordinates of the part.
 InterpolationLoss interpolation_loss(const Tile& tile, double part);
 
-/// The patch with `count` coefficients in either variable (at least patch_count of the tile's degree)
-/// on a box inside the tile's rectangle, rows along x.
+/// The patch with `count` coefficients in either variable (at least patch_count of the tile's
+/// degree) on a box inside the tile's rectangle, rows along x.
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch);
 
 /// The halves across the axis of the rows, which run along the other axis afterwards. Without

@@ -154,8 +154,7 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visi
     }
     const int axis = node.level % 2;
     Box<2> lower, upper;
-    if (node.level >= last_level_ || here > budget ||
-        !halve_box(node.box, axis, &lower, &upper)) {
+    if (node.level >= last_level_ || here > budget || !halve_box(node.box, axis, &lower, &upper)) {
       tokens_.push_back(kWaiting);
       waiting_.push_back({node.box, node.level});
       --top;
@@ -228,7 +227,9 @@ bool PlaneSubdivision<N>::coarse(const Node& node, int i) const {
   const Patch& patch = node.patch[i];
   // Small boxes are where curves touch or nearly touch, and only the last digits tell them apart.
   const double tolerated = node.level > kLevelsPerBand ? 0x1p-26 : 0x1p-4;
-  return !(patch.radius <= tolerated * patch.magnitude());
+  const double slope_radius = std::max(patch.slope_radius[0], patch.slope_radius[1]);
+  return !(patch.radius <= tolerated * patch.magnitude() &&
+           slope_radius <= tolerated * (patch.hi - patch.lo));
 }
 
 /// Makes the node's patches where they are missing or too coarse; false if the box is too large
@@ -260,7 +261,7 @@ bool PlaneSubdivision<N>::provide_patch(Node& node, int i) {
       double size = 0;
       for (int k = 0; k <= 2; ++k)
         for (int l = 0; k + l <= 2; ++l) size += std::fabs(tile->a[k][l]);
-      if (interpolation_loss(*tile, part).value > 0x1p-4 * size) return false;
+      if (interpolation_loss(*tile, part).slope > 0x1p-4 * size) return false;
     }
     expand(*tile, node.box, count_, &node.patch[i]);
     node.tile[i] = tile;
@@ -268,8 +269,8 @@ bool PlaneSubdivision<N>::provide_patch(Node& node, int i) {
     if (!coarse(node, i)) return true;
     // What is lost by the low degree shrinks with the box.
     if (interpolation_loss(*tile, 0.5 * std::max(node.box.width(0) / tile->half[0],
-                                                 node.box.width(1) / tile->half[1])).value >
-        0.5 * node.patch[i].radius)
+                                                 node.box.width(1) / tile->half[1]))
+            .value > 0.5 * node.patch[i].radius)
       return true;
   }
   // A tile of the box's own, in double-doubles, then in MPFR.
@@ -280,8 +281,8 @@ bool PlaneSubdivision<N>::provide_patch(Node& node, int i) {
     node.tile[i] = local_tile(node, i, bits);
     expand(*node.tile[i], node.box, count_, &node.patch[i]);
     node.expanded_at[i] = node.level;
-    if (!coarse(node, i) || (had && bits > Kernel::kDoubleBits &&
-                             !(node.patch[i].radius < 0.5 * before)))
+    if (!coarse(node, i) ||
+        (had && bits > Kernel::kDoubleBits && !(node.patch[i].radius < 0.5 * before)))
       break;
   }
   return true;

@@ -44,11 +44,11 @@ struct Row {
   }
 };
 
-#define ENCASE_ROW_OPERATION(name, operation)                                             \
-  HWY_INLINE Row name(const Row& a, const Row& b) {                                       \
-    Row r;                                                                                \
-    for (int k = 0; k < kParts; ++k) r.part[k] = hn::operation(a.part[k], b.part[k]);     \
-    return r;                                                                             \
+#define ENCASE_ROW_OPERATION(name, operation)                                         \
+  HWY_INLINE Row name(const Row& a, const Row& b) {                                   \
+    Row r;                                                                            \
+    for (int k = 0; k < kParts; ++k) r.part[k] = hn::operation(a.part[k], b.part[k]); \
+    return r;                                                                         \
   }
 ENCASE_ROW_OPERATION(operator+, Add)
 ENCASE_ROW_OPERATION(operator-, Sub)
@@ -67,8 +67,8 @@ HWY_INLINE Row first_lanes(const Row& a, const Row& b, int count) {
   Row r;
   for (int k = 0; k < kParts; ++k) {
     const int here = count - k * kLanes;
-    r.part[k] = hn::IfThenElse(
-        hn::FirstN(Lanes(), static_cast<size_t>(here < 0 ? 0 : here)), a.part[k], b.part[k]);
+    r.part[k] = hn::IfThenElse(hn::FirstN(Lanes(), static_cast<size_t>(here < 0 ? 0 : here)),
+                               a.part[k], b.part[k]);
   }
   return r;
 }

@@ -17,7 +17,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
-/// row += x * next, of numbers high + low: the rounding errors of the high parts go to the low ones.
+/// row += x * next, of numbers high + low: the rounding errors of the high parts go to the low
+/// ones.
 HWY_INLINE void add_multiple(double* high, double* low, double x, const double* next_high,
                              const double* next_low, int count) {
   const Row factor = Row::all(x);
@@ -43,9 +44,10 @@ HWY_INLINE void multiply(double* high, double* low, double factor, double factor
   }
 }
 
-/// Row i, of numbers high + low, holds the coefficients of s^i: p(s) -> p(origin + half s). Rows are
-/// `stride` apart, and row i has degree + 1 - i entries (the rest are zero).
-void shift_and_scale(double* high, double* low, int degree, int stride, double origin, double half) {
+/// Row i, of numbers high + low, holds the coefficients of s^i: p(s) -> p(origin + half s). Rows
+/// are `stride` apart, and row i has degree + 1 - i entries (the rest are zero).
+void shift_and_scale(double* high, double* low, int degree, int stride, double origin,
+                     double half) {
   if (origin != 0) {
     // Synthetic division, by the antidiagonals of its table: the steps of one do not wait for each
     // other.
@@ -245,8 +247,8 @@ void add_up(Tile* tile, double relative) {
   if (!(tile->sum < 0x1p900) || !std::isfinite(tile->error + tile->bend_error)) claim_nothing(tile);
 }
 
-/// Sums of |a[i][j]| over one index, and Taylor's shift of them to 1: for every exponent from 8 on a
-/// bound on the terms that have it, around any point of the rectangle.
+/// Sums of |a[i][j]| over one index, and Taylor's shift of them to 1: for every exponent from 8 on
+/// a bound on the terms that have it, around any point of the rectangle.
 void add_high_terms(Tile* tile) {
   const int n = tile->degree;
   auto& high = tile->high_terms;
@@ -377,7 +379,9 @@ double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* ti
     tile->value_error = precise_error(reach_of(*tile));
     return fill(
         tile, n,
-        [&](int i, int j) { return taylor.coefficients[static_cast<std::size_t>(i) * (n + 1) + j]; },
+        [&](int i, int j) {
+          return taylor.coefficients[static_cast<std::size_t>(i) * (n + 1) + j];
+        },
         taylor.error * reach_power(n), 0);
   }
   ++kernel_->expansions;
@@ -396,7 +400,8 @@ double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* ti
       0x1.01p-53);
 }
 
-TiledPolynomial::Coefficients& TiledPolynomial::shifted_in_x(double center, double half, bool in_tree) {
+TiledPolynomial::Coefficients& TiledPolynomial::shifted_in_x(double center, double half,
+                                                             bool in_tree) {
   Workspace& w = *workspace_;
   // Tiles of the tree stand in columns.
   Workspace::Column* column = &w.single;

@@ -16,9 +16,9 @@ namespace encase {
 ///
 ///   f(center + half * s) = sum over i + j <= degree of a[i][j] s_0^i s_1^j  +  e(s).
 ///
-/// What the search asks about f inside the rectangle it asks its tile: the coefficients are those of
-/// an expansion around the centre, so that rounding errors are small beside the values there, and
-/// there are few of them whatever the degree of f. f is scaled as in FilteredPolynomial.
+/// What the search asks about f inside the rectangle it asks its tile: the coefficients are those
+/// of an expansion around the centre, so that rounding errors are small beside the values there,
+/// and there are few of them whatever the degree of f. f is scaled as in FilteredPolynomial.
 struct Tile {
   static constexpr int kMaxDegree = 15;
   static constexpr int kRow = kMaxDegree + 1;
@@ -29,10 +29,10 @@ struct Tile {
   int degree = -1;  ///< -1: no tile
   int bits = 0;     ///< the precision of the arithmetic that it comes from
   alignas(64) std::array<std::array<double, kRow>, kRow> a;  ///< zero where i + j > degree
-  double sum = 0;          ///< at least sum |a[i][j]| kReach^(i+j)
-  double slope = 0;        ///< at least sum (i+j) |a[i][j]| kReach^(i+j): bounds |d/ds_k| of the sum
-  double bend = 0;         ///< at least sum (i+j)^2 |a[i][j]| kReach^(i+j)
-  double error = 0;        ///< |e| on the rectangle
+  double sum = 0;    ///< at least sum |a[i][j]| kReach^(i+j)
+  double slope = 0;  ///< at least sum (i+j) |a[i][j]| kReach^(i+j): bounds |d/ds_k| of the sum
+  double bend = 0;   ///< at least sum (i+j)^2 |a[i][j]| kReach^(i+j)
+  double error = 0;  ///< |e| on the rectangle
   double slope_error = 0;  ///< |de/ds_k| on the rectangle
   double bend_error = 0;   ///< the second derivatives of e on the rectangle
   double value_error = 0;  ///< of TiledPolynomial::value on the rectangle
