@@ -53,12 +53,15 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve,
     if (node.box.largest_width() <= 0x1p-3 * fine &&
         no_relevant_critical_point(f.polynomial(), node.box, kernel))
       return cover::kExcluded;
-    if (node.box.largest_width() <= fine && node.patch[0].sign()) return kRegion;
-    return cover::kSplitX;
+    // Across the axis along which f changes more, weighted by the width.
+    const auto change = variation(node.patch[0]);
+    const int axis = change[0] * node.box.width(0) >= change[1] * node.box.width(1) ? 0 : 1;
+    if (node.box.width(axis) <= fine && node.patch[0].sign()) return kRegion;
+    return cover::kSplitX - axis;
   };
   PlaneSubdivision<1> subdivision({&f}, result.root_box, half_planes, limits, kernel);
   result.tokens = subdivision.run(visit);
-  result.boxes = subdivision.boxes();
+  result.boxes = static_cast<int>(result.tokens.size());
   result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
 
   const std::vector<Box<2>> boxes = leaves(result.root_box, result.tokens, kRegion);

@@ -13,6 +13,7 @@ namespace {
 /// has room, and radii are at most some times the residual.
 constexpr double kQuality = 0.7;
 constexpr double kUp = 1 + 0x1p-40;
+constexpr int kUsualLevels = 16;  // of halvings, after which most simple crossings are told apart
 
 double ulp(double x) {
   x = std::fabs(x);
@@ -253,11 +254,16 @@ RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
     if (verdict.excluded) return cover::kExcluded;
     if (verdict.contraction)
       if (const auto k = roots.near(node, *verdict.contraction)) return *k;
-    return cover::kSplitX;
+    if (node.level < kUsualLevels) return wider_axis(node.box);
+    // Across the axis along which they change more: curves that touch or share a tangent there.
+    const auto v = variation(p), w = variation(q);
+    const double x = v[0] / (p.magnitude() + 1e-300) + w[0] / (q.magnitude() + 1e-300),
+                 y = v[1] / (p.magnitude() + 1e-300) + w[1] / (q.magnitude() + 1e-300);
+    return x >= y ? cover::kSplitX : cover::kSplitY;
   };
   PlaneSubdivision<2> subdivision({&f, &g}, result.root_box, half_planes, limits, kernel);
   result.tokens = subdivision.run(visit);
-  result.boxes = subdivision.boxes();
+  result.boxes = static_cast<int>(result.tokens.size());
   result.roots = std::move(roots.roots);
   result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
   return result;

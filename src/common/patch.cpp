@@ -298,14 +298,20 @@ Extremes expand_patch(const double* a, int degree, const double* xs, const doubl
   return result;
 }
 
-void halve_patch(const Net& net, int count, double radius, Net* lower, Net* upper,
+void halve_patch(const Net& net, int count, bool along_lanes, double radius, Net* lower, Net* upper,
                  Extremes* extremes) {
-  HWY_ALIGN Net low, high;
+  HWY_ALIGN Net low, high, turned;
   with_count(count, [&]<int N>() HWY_ATTR {
-    halve_net<N>(net, &low, &high, extremes);
+    if (along_lanes) transpose<N>(net, &turned);
+    halve_net<N>(along_lanes ? turned : net, &low, &high, extremes);
     if (!(extremes[0].lo > radius || extremes[0].hi < -radius)) transpose<N>(low, lower);
     if (!(extremes[1].lo > radius || extremes[1].hi < -radius)) transpose<N>(high, upper);
   });
+}
+
+void turn_net(int count, Net* net) {
+  HWY_ALIGN const Net from = *net;
+  with_count(count, [&]<int N>() HWY_ATTR { transpose<N>(from, net); });
 }
 
 void precondition(const Net& f, const Net& g, int count, Preconditioned* result) {
@@ -360,6 +366,7 @@ namespace {
 
 HWY_EXPORT(expand_patch);
 HWY_EXPORT(halve_patch);
+HWY_EXPORT(turn_net);
 HWY_EXPORT(precondition);
 HWY_EXPORT(first_derivatives);
 HWY_EXPORT(precondition_gradient);
@@ -516,25 +523,26 @@ void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
   add_rounding(patch, table.norm * table.norm * (sample + products) * kUp + kTiny);
 }
 
-void halve(const Patch& patch, bool whole, Patch* lower, Patch* upper) {
+void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper) {
   Extremes extremes[2];
-  // The halves' radius: each of count - 1 averages rounds once, relative to the largest
-  // coefficient.
+  // Each of count - 1 averages rounds once, relative to the largest coefficient.
   const double change = 1.01 * patch.count * kUnit * patch.magnitude() + kTiny;
-  const double n = patch.count - 1;
-  const double radius = (patch.radius + change) * kUp;
-  HWY_DYNAMIC_DISPATCH(halve_patch)
-  (patch.b, patch.count, whole ? HUGE_VAL : radius, &lower->b, &upper->b, extremes);
-  // Across the new rows and lanes: the axes change places.
-  const std::array<double, 2> slope{(patch.slope_radius[1] + n * change) * kUp,
-                                    (0.5 * patch.slope_radius[0] + n * change) * kUp};
-  const std::array<double, 3> bend{(patch.bend_radius[1] + n * n * change) * kUp,
-                                   (0.25 * patch.bend_radius[0] + n * n * change) * kUp,
+  const double n = patch.count - 1, radius = (patch.radius + change) * kUp;
+  const bool along_lanes = patch.rows_axis != axis;
+  // Across the halves' rows and lanes: those of the axis that stays, then the halved one.
+  const int stays = along_lanes ? 0 : 1;
+  const std::array<double, 2> slope{(patch.slope_radius[stays] + n * change) * kUp,
+                                    (0.5 * patch.slope_radius[1 - stays] + n * change) * kUp};
+  const std::array<double, 3> bend{(patch.bend_radius[stays] + n * n * change) * kUp,
+                                   (0.25 * patch.bend_radius[1 - stays] + n * n * change) * kUp,
                                    (0.5 * patch.bend_radius[2] + n * n * change) * kUp};
+  const int count = patch.count;
+  HWY_DYNAMIC_DISPATCH(halve_patch)
+  (patch.b, count, along_lanes, whole ? HUGE_VAL : radius, &lower->b, &upper->b, extremes);
   int k = 0;
   for (Patch* child : {lower, upper}) {
-    child->count = patch.count;
-    child->rows_axis = 1 - patch.rows_axis;
+    child->count = count;
+    child->rows_axis = 1 - axis;
     child->lo = extremes[k].lo;
     child->hi = extremes[k].hi;
     child->radius = radius;
@@ -542,6 +550,22 @@ void halve(const Patch& patch, bool whole, Patch* lower, Patch* upper) {
     child->bend_radius = bend;
     ++k;
   }
+}
+
+void turn(Patch* patch) {
+  HWY_DYNAMIC_DISPATCH(turn_net)(patch->count, &patch->b);
+  patch->rows_axis = 1 - patch->rows_axis;
+  std::swap(patch->slope_radius[0], patch->slope_radius[1]);
+  std::swap(patch->bend_radius[0], patch->bend_radius[1]);
+}
+
+std::array<double, 2> variation(const Patch& patch) {
+  Extremes slope[2];
+  HWY_DYNAMIC_DISPATCH(first_derivatives)(patch.b, patch.count, &slope[0], &slope[1]);
+  std::array<double, 2> result;
+  for (int i = 0; i < 2; ++i)
+    result[i == 0 ? patch.rows_axis : 1 - patch.rows_axis] = std::max(-slope[i].lo, slope[i].hi);
+  return result;
 }
 
 namespace {
@@ -561,6 +585,11 @@ std::optional<std::array<double, 2>> weights_of(const Matrix<2>& e, double quali
 }  // namespace
 
 SystemVerdict test_system(const Patch& f, const Patch& g, double quality) {
+  if (f.rows_axis != g.rows_axis) {
+    Patch turned = g;
+    turn(&turned);
+    return test_system(f, turned, quality);
+  }
   SystemVerdict verdict;
   Preconditioned extremes;
   HWY_DYNAMIC_DISPATCH(precondition)(f.b, g.b, f.count, &extremes);

@@ -55,18 +55,24 @@ InterpolationLoss interpolation_loss(const Tile& tile, double part);
 /// degree) on a box inside the tile's rectangle, rows along x.
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch);
 
-/// The halves across the axis of the rows, which run along the other axis afterwards. Without
-/// `whole`, of a half on which f has a proved sign only that is valid: lo, hi and radius. `patch`
-/// may be one of the halves.
-void halve(const Patch& patch, bool whole, Patch* lower, Patch* upper);
+/// The halves across an axis (their rows run along the other one). Without `whole`, of a half on
+/// which f has a proved sign only that is valid: lo, hi and radius. `patch` may be one of the
+/// halves.
+void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper);
 
-/// What the patches of two polynomials prove about their common zeros.
+/// What the patches of two polynomials on one box, of equal counts, prove about their common zeros.
 struct SystemVerdict {
   bool excluded = false;  ///< there is none in the closed box
   /// There is at most one, a simple one (see Contraction).
   std::optional<Contraction<2>> contraction;
 };
 SystemVerdict test_system(const Patch& f, const Patch& g, double quality);
+
+/// Makes the rows run along the other axis.
+void turn(Patch* patch);
+
+/// How much f changes along x and along y: the largest difference of neighbouring coefficients.
+std::array<double, 2> variation(const Patch& patch);
 
 /// As the function on nets in box_tests.hpp, with little effort.
 bool no_relevant_critical_point(const Patch& patch);

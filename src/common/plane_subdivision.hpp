@@ -13,8 +13,12 @@
 
 namespace encase {
 
-/// The subdivision of a box of the plane into quarters, halves at a time, with the patches of N
-/// polynomials on the boxes.
+/// The token that halves a box across its longer side.
+inline int wider_axis(const Box<2>& box) {
+  return box.width(1) > box.width(0) ? cover::kSplitY : cover::kSplitX;
+}
+
+/// The subdivision of a box of the plane, with the patches of N polynomials on the boxes.
 ///
 /// Depth first, so that what is at hand stays in the cache, but in bands: what is not settled at
 /// the end of one band of widths waits until everything else has come as far, so that a budget is
@@ -22,7 +26,7 @@ namespace encase {
 template <int N>
 class PlaneSubdivision {
  public:
-  /// What `visit` is given: a box on which all patches are valid.
+  /// What `visit` is given: a box and the patches on it.
   struct Node {
     Box<2> box;
     std::array<Patch, N> patch;
@@ -47,12 +51,10 @@ class PlaneSubdivision {
       count_ = std::max(count_, patch_count(f->polynomial().degree()));
   }
 
-  /// `visit(node)` returns the token that settles the box, or a split token (any of them; the axis
-  /// is chosen here). Returns the tokens in preorder (encase/cover.hpp).
+  /// `visit(node)` returns the token that settles the box, or a split token. Returns the tokens in
+  /// preorder (encase/cover.hpp).
   template <class Visit>
   std::vector<int> run(Visit visit);
-
-  int boxes() const { return boxes_; }
 
  private:
   static constexpr int kWaiting = cover::kUnresolved - 1;
@@ -89,27 +91,23 @@ class PlaneSubdivision {
   std::vector<Waiting> waiting_;
   std::unique_ptr<Node[]> stack_;
   std::array<std::vector<Local>, N> local_;
-  int count_ = 0;  ///< of the patches' coefficients in either variable
-  int boxes_ = 0;
-  int last_level_ = 0;  ///< of the band at hand
+  int count_ = 0;    ///< of the patches' coefficients in either variable
+  int boxes_ = 0;    ///< visited; those that had to wait twice
+  int deepest_ = 0;  ///< the level beyond which nothing is halved
   bool stopped_ = false;
 };
 
 template <int N>
 template <class Visit>
 std::vector<int> PlaneSubdivision<N>::run(Visit visit) {
-  const int deepest =
-      2 * static_cast<int>(std::floor(-std::log2(std::max(limits_.smallest, 0x1p-500))));
-  last_level_ = std::min(kLevelsPerBand, deepest);
+  deepest_ = 2 * static_cast<int>(std::floor(-std::log2(std::max(limits_.smallest, 0x1p-500))));
   descend(root_, 0, limits_.max_boxes, visit);
   while (!waiting_.empty()) {
     const std::vector<Waiting> band = std::move(waiting_);
-    std::vector<int> before = std::move(tokens_);
+    const std::vector<int> before = std::move(tokens_);
     waiting_.clear();
     tokens_.clear();
     tokens_.reserve(before.size());
-    const bool last = last_level_ == deepest || stopped_ || boxes_ >= limits_.max_boxes;
-    last_level_ = std::min(last_level_ + kLevelsPerBand, deepest);
     std::size_t next = 0;
     for (const int token : before) {
       if (token != kWaiting) {
@@ -119,7 +117,7 @@ std::vector<int> PlaneSubdivision<N>::run(Visit visit) {
       const Waiting& at = band[next];
       const int budget = (limits_.max_boxes - boxes_) / static_cast<int>(band.size() - next);
       ++next;
-      if (last || budget <= 0) {
+      if (stopped_ || budget <= 0 || at.level >= deepest_) {
         tokens_.push_back(cover::kUnresolved);
         ++kernel_.decisions.undecided;
       } else {
@@ -134,6 +132,7 @@ template <int N>
 template <class Visit>
 void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visit visit) {
   for (auto& list : local_) list.clear();
+  const int last_level = std::min(level + kLevelsPerBand, deepest_);
   int top = 0;
   stack_[0].box = box;
   stack_[0].level = level;
@@ -152,11 +151,13 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visi
       --top;
       continue;
     }
-    const int axis = node.level % 2;
+    const int axis = cover::kSplitX - token;
     Box<2> lower, upper;
-    if (node.level >= last_level_ || here > budget || !halve_box(node.box, axis, &lower, &upper)) {
+    const bool divisible = halve_box(node.box, axis, &lower, &upper) &&
+                           node.box.width(axis) > limits_.smallest * root_.width(axis);
+    if (!divisible || node.level >= last_level || here > budget) {
       tokens_.push_back(kWaiting);
-      waiting_.push_back({node.box, node.level});
+      waiting_.push_back({node.box, divisible ? node.level : deepest_});
       --top;
       continue;
     }
@@ -172,7 +173,8 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visi
     first.box = lower;
     second.box = upper;
     if (second.has_patches)
-      for (int i = 0; i < N; ++i) halve(second.patch[i], N == 1, &first.patch[i], &second.patch[i]);
+      for (int i = 0; i < N; ++i)
+        halve(second.patch[i], axis, N == 1, &first.patch[i], &second.patch[i]);
   }
 }
 
@@ -193,7 +195,7 @@ template <int N>
 template <class Visit>
 int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
   if (!node.inside && outside(node)) return cover::kOutside;
-  if (!provide_patches(node)) return cover::kSplitX;
+  if (!provide_patches(node)) return wider_axis(node.box);
   return visit(node);
 }
 
@@ -236,12 +238,12 @@ bool PlaneSubdivision<N>::coarse(const Node& node, int i) const {
 /// for patches.
 template <int N>
 bool PlaneSubdivision<N>::provide_patches(Node& node) {
-  // Rows run along x where a new patch can be made.
-  if (node.level % 2 != 0) return node.has_patches;
   for (int i = 0; i < N; ++i) {
-    if (node.has_patches && (node.expanded_at[i] >= node.level || !coarse(node, i))) continue;
+    if (node.has_patches && (node.expanded_at[i] + 2 > node.level || !coarse(node, i))) continue;
     if (!provide_patch(node, i)) return false;
   }
+  for (int i = 1; i < N; ++i)
+    if (node.patch[i].rows_axis != node.patch[0].rows_axis) turn(&node.patch[i]);
   node.has_patches = true;
   return true;
 }
