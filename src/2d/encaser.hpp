@@ -60,9 +60,8 @@ class Encaser {
   Encasement result_;
   std::vector<FilteredPolynomial<2>> polynomials_;
   std::vector<TiledPolynomial> tiled_;  // the same, over the box of region_used
-  std::vector<Line> sides_;  // of region_used
-  Box<2> bounds_;            // of region_used
   std::vector<Line> sides_;             // of region_used
+  Box<2> bounds_;                       // of region_used
   std::unique_ptr<Partition> partition_;
   OpenCell first_cell_;
   std::vector<Finished> finished_;
