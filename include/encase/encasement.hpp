@@ -195,7 +195,7 @@ struct Encasement {
   std::vector<Unresolved> degenerate;
   std::vector<Unresolved> undecided;
   Statistics statistics;
-  double seconds = 0;  ///< CPU, not part of the result's bytes
+  double seconds = 0;  ///< CPU (elapsed, below a millisecond); not part of the result's bytes
 };
 
 struct EncaseOptions {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,12 +13,6 @@
 
 namespace encase {
 namespace {
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 /// Whether two of the boxes share a point.
 bool any_meet(std::vector<Box<2>> boxes) {
@@ -42,7 +34,7 @@ std::string decimal(double x) {
 
 Encaser::Encaser(const std::vector<NamedCurve>& input, const Region& region,
                  const EncaseOptions& options)
-    : options_(options), start_(cpu_seconds()) {
+    : options_(options) {
   kernel_.start_bits = std::max(options.start_bits, Kernel::kDoubleBits);
   kernel_.max_bits = std::max(options.max_bits, kernel_.start_bits);
   result_.input = input;
@@ -69,7 +61,7 @@ bool Encaser::out_of_budget() {
   if (!budget_.empty()) return true;
   if (static_cast<int>(finished_.size()) >= options_.max_cells)
     budget_ = "the limit of " + std::to_string(options_.max_cells) + " cells was reached";
-  else if (cpu_seconds() - start_ > options_.max_seconds)
+  else if (clock_.exceeds(options_.max_seconds))
     budget_ = "the limit of " + decimal(options_.max_seconds) + " CPU seconds was reached";
   return !budget_.empty();
 }
@@ -163,9 +155,10 @@ bool Encaser::open_region() {
       isolate_crossings();
       // Every crossing box must lie on one side of every side's line.
       bool clear = true;
-      for (const Crossing& crossing : partition_->crossings)
-        for (const Line& line : sides_)
-          clear = clear && side(line, crossing.box, kernel_).has_value();
+      for (const Crossing& crossing : partition_->crossings) {
+        const Place place(crossing.box);
+        for (const Line& line : sides_) clear = clear && side(line, place, kernel_).has_value();
+      }
       if (clear) return true;
     }
   }
@@ -363,7 +356,7 @@ void Encaser::decide_outcome() {
   s.restrictions = kernel_.restrictions;
   s.expansions = kernel_.expansions;
   s.mpfr_expansions = kernel_.mpfr_expansions;
-  result_.seconds = cpu_seconds() - start_;
+  result_.seconds = clock_.seconds();
 }
 
 }  // namespace encase

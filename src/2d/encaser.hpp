@@ -8,6 +8,7 @@
 
 #include "2d/partition.hpp"
 #include "2d/splitting_lines.hpp"
+#include "common/run_clock.hpp"
 #include "common/subdivision.hpp"
 #include "common/tile.hpp"
 #include "encase/encasement.hpp"
@@ -55,7 +56,7 @@ class Encaser {
   };
 
   const EncaseOptions& options_;
-  double start_;
+  RunClock clock_;
   Kernel kernel_;
   Encasement result_;
   std::vector<FilteredPolynomial<2>> polynomials_;

@@ -68,11 +68,13 @@ bool on_line(const Encasement& encasement, const Crossing& crossing, const Line&
 
 void locate_crossings(Encasement& encasement, Kernel& kernel) {
   if (encasement.region_used.corners == encasement.region.corners) return;
+  std::vector<Line> sides;
+  for (int k = 0; k < encasement.region.side_count(); ++k)
+    sides.push_back(encasement.region.side(k));
   for (std::size_t id = 0; id < encasement.crossings.size(); ++id) {
     Crossing& crossing = encasement.crossings[id];
     if (crossing.location == Location::Outside) continue;
-    for (int k = 0; k < encasement.region.side_count(); ++k) {
-      const Line line = encasement.region.side(k);
+    for (const Line& line : sides) {
       std::optional<Sign> where = side(line, crossing.box, kernel);
       if (!where && on_line(encasement, crossing, line)) where = Sign::Zero;
       // Not on the line: some precision tells the side. The box is narrowed to what tells it.

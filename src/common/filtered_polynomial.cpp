@@ -2,6 +2,7 @@
 #include "common/filtered_polynomial.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -175,10 +176,27 @@ std::vector<double> round_all(const std::vector<Number>& values, double* error) 
 
 template <int D>
 struct FilteredPolynomial<D>::Cache {
-  std::once_flag low_once, extended_once;
-  std::vector<double> low;
-  std::vector<long double> extended;
+  /// What the first caller makes. (std::call_once takes a system call.)
+  template <class Value>
+  struct Lazy {
+    Value value;
+    std::atomic<bool> made = false;
+  };
+  template <class Value, class Make>
+  const Value& get(Lazy<Value>& lazy, Make make) {
+    if (!lazy.made.load(std::memory_order_acquire)) {
+      std::lock_guard lock(mutex);
+      if (!lazy.made.load(std::memory_order_relaxed)) {
+        make(lazy.value);
+        lazy.made.store(true, std::memory_order_release);
+      }
+    }
+    return lazy.value;
+  }
+
   std::mutex mutex;
+  Lazy<std::vector<double>> low;
+  Lazy<std::vector<long double>> extended;
   std::map<int, std::vector<Mpfr>> by_bits;
 };
 
@@ -235,16 +253,15 @@ Rational FilteredPolynomial<D>::scaled(const Rational& coefficient) const {
 
 template <int D>
 const std::vector<double>& FilteredPolynomial<D>::low_coefficients() const {
-  std::call_once(cache_->low_once, [this] {
-    cache_->low.assign(coefficients_.size(), 0.0);
+  return cache_->get(cache_->low, [this](std::vector<double>& low) {
+    low.assign(coefficients_.size(), 0.0);
     if (exact_coefficients_) return;
     for (const auto& term : exact_.terms()) {
       const std::size_t index = index_of(term.exponent, degree_);
       const Rational rest = scaled(term.coefficient) - Rational(coefficients_[index]);
-      cache_->low[index] = rest.get_d();
+      low[index] = rest.get_d();
     }
   });
-  return cache_->low;
 }
 
 template <int D>
@@ -253,12 +270,11 @@ const std::vector<Number>& FilteredPolynomial<D>::coefficients_in(int bits) cons
   if constexpr (std::is_same_v<Number, double>) {
     return coefficients_;
   } else if constexpr (std::is_same_v<Number, long double>) {
-    std::call_once(cache_->extended_once, [this] {
-      cache_->extended.assign(coefficients_.size(), 0.0L);
+    return cache_->get(cache_->extended, [this](std::vector<long double>& extended) {
+      extended.assign(coefficients_.size(), 0.0L);
       for (const auto& term : exact_.terms())
-        assign(cache_->extended[index_of(term.exponent, degree_)], scaled(term.coefficient));
+        assign(extended[index_of(term.exponent, degree_)], scaled(term.coefficient));
     });
-    return cache_->extended;
   } else {
     std::lock_guard lock(cache_->mutex);
     auto [entry, is_new] = cache_->by_bits.try_emplace(bits);

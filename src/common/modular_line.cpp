@@ -47,7 +47,8 @@ Residue residue(mpz_srcptr value) {
 /// The coefficients modulo the prime, in the order of the terms; nothing if it divides a
 /// denominator.
 std::optional<std::vector<Residue>> coefficients(const Polynomial<2>& f) {
-  const std::size_t n = f.terms().size();
+  const auto& terms = f.terms();
+  const std::size_t n = terms.size();
   std::vector<Residue> result(n);
   // Denominators other than powers of two are inverted together, at the price of one: first the
   // product of those before each.
@@ -55,7 +56,7 @@ std::optional<std::vector<Residue>> coefficients(const Polynomial<2>& f) {
   std::vector<Residue> denominators, before;
   Residue all = 1;
   for (std::size_t k = 0; k < n; ++k) {
-    const Rational& c = f.terms()[k].coefficient;
+    const Rational& c = terms[k].coefficient;
     result[k] = residue(c.get_num_mpz_t());
     const mpz_srcptr denominator = c.get_den_mpz_t();
     if (is_power_of_two(denominator)) {
@@ -112,11 +113,10 @@ std::optional<ModularPolynomial> restrict_modulo_prime(const Polynomial<2>& f) {
   if (!coefficient) return std::nullopt;
   const std::size_t size = static_cast<std::size_t>(f.degree()) + 1;
   std::vector<Residue> dense(size * size);  // that of x^i y^j in row j
-  for (std::size_t k = 0; k < coefficient->size(); ++k) {
-    const auto& exponent = f.terms()[k].exponent;
-    dense[static_cast<std::size_t>(exponent[1]) * size + static_cast<std::size_t>(exponent[0])] =
-        (*coefficient)[k];
-  }
+  auto next = coefficient->begin();
+  for (const auto& term : f.terms())
+    dense[static_cast<std::size_t>(term.exponent[1]) * size +
+          static_cast<std::size_t>(term.exponent[0])] = *next++;
   // Horner's rule over the powers of y: times a + b t, plus the row; of degree f's less the power.
   ModularPolynomial result(size);
   for (std::size_t j = size; j-- > 0;) {
