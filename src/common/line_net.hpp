@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "common/bernstein_tables.hpp"
+#include "common/tile.hpp"
+#include "encase/geometry.hpp"
+
+/// Polynomials of degree up to 15 in one variable in Bernstein form, on SIMD units: what the search
+/// for roots on lines consists of. All instruction sets give the same bits.
+namespace encase {
+
+/// Which of the values in a row are proved to be positive, which negative: bit j for value j.
+struct SignBits {
+  std::uint32_t positive = 0;
+  std::uint32_t negative = 0;
+};
+
+/// The Bernstein coefficients of a polynomial on an interval, zeros beyond its degree.
+struct alignas(64) LineNet {
+  std::array<double, BernsteinTables::kSize> b;
+};
+
+/// The polynomial of a tile on the segment origin + direction s, |s| <= 1, in the tile's
+/// coordinates, from its values at the nodes of the tables. Its coefficients each err by at most
+/// interpolation_roundings(degree) u values_norm sum |a_ij| kReach^(i+j), if the segment lies
+/// within the tile's reach. Requires tables.degree == tile.degree.
+void interpolate(const Tile& tile, const Point<2>& origin, const Point<2>& direction,
+                 const BernsteinTables& tables, LineNet* net);
+
+/// The same by Taylor's coefficients in s, slower, with errors of at most
+/// substitution_roundings(degree) u sum |a_ij| kReach^(i+j).
+void substitute(const Tile& tile, const Point<2>& origin, const Point<2>& direction,
+                const BernsteinTables& tables, LineNet* net);
+
+/// Restricts to the halves, or to the parts below and above a fraction of the way; `upper` may be
+/// `net`. Adds an error of at most cutting_roundings(degree) u max |b|. Requires that fraction is a
+/// multiple of 2^-10.
+void halve(const LineNet& net, const BernsteinTables& tables, LineNet* lower, LineNet* upper);
+void cut(const LineNet& net, int degree, double fraction, LineNet* lower, LineNet* upper);
+
+/// The signs of the coefficients that exceed a threshold.
+SignBits signs(const LineNet& net, int degree, double threshold);
+/// The signs of the differences of neighbours.
+SignBits rises(const LineNet& net, int degree, double threshold);
+
+/// The value of a tile's polynomial at s, to within value_roundings(degree) u sum |a_ij|
+/// kReach^(i+j).
+double value_at(const Tile& tile, const Point<2>& s);
+
+constexpr int interpolation_roundings(int degree) { return 3 * degree + 8; }
+constexpr int substitution_roundings(int degree) { return 4 * degree + 12; }
+constexpr int cutting_roundings(int degree) { return 2 * degree + 3; }
+constexpr int value_roundings(int degree) { return 2 * degree + 20; }
+
+}  // namespace encase
