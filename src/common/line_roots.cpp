@@ -16,11 +16,13 @@ constexpr double kRounding = 0x1p-53;
 constexpr double kUp = 1 + 0x1p-40;      // outweighs the roundings of a bound's own evaluation
 constexpr double kUnderflow = 0x1p-960;  // more than all underflows of one net add up to
 
-constexpr int kMaxTiles = 1000;          // along one path
-constexpr int kMaxLevel = 10;            // nested looks at a part of a piece
-constexpr int kMaxWaiting = 500;         // parts that wait for their turn, on all levels
-constexpr double kLeastPart = 0x1p-24;   // of a piece that is still cut
-constexpr double kLocalError = 0x1p-28;  // of a local tile that serves, relative to its sum
+constexpr int kMaxTiles = 1000;              // along one path
+constexpr int kMaxLevel = 10;                // nested looks at a part of a piece
+constexpr int kMaxWaiting = 500;             // parts that wait for their turn, on all levels
+constexpr double kLeastPart = 0x1p-24;       // of a piece that is still cut
+constexpr double kLeastCutPart = 0x1p-5;     // of one that is cut for its bend where errors matter
+constexpr double kExpansionError = 0x1p-50;  // of a tile that lacks no terms, about
+constexpr double kLocalError = 0x1p-28;      // of a local tile that serves, relative to its sum
 constexpr int kMaxNodesWithoutRoot = 4000;
 constexpr double kRootWidth = 0x1p-10;  // of half a root's interval, relative to its part
 
@@ -126,6 +128,12 @@ double largest_coefficient(const LineNet& net) {
   return largest;
 }
 
+double largest_difference(const LineNet& net, int degree) {
+  double largest = 0;
+  for (int j = 0; j < degree; ++j) largest = std::max(largest, std::fabs(net.b[j + 1] - net.b[j]));
+  return largest;
+}
+
 double largest_second_difference(const LineNet& net, int degree) {
   double largest = 0;
   for (int j = 0; j + 2 <= degree; ++j)
@@ -205,7 +213,7 @@ class PathSearch {
       }
       if (from == start) break;
     }
-    return from == hi || cover_locally(from, hi, kernel_.start_bits, 1);
+    return from == hi || cover_locally(from, hi, hi - from, kernel_.start_bits, 1);
   }
 
  private:
@@ -246,15 +254,12 @@ class PathSearch {
     const Tile& tile = *piece->tile;
     const RationalPoint<2> from = path_.exactly_at(Rational(piece->lo)),
                            to = path_.exactly_at(Rational(piece->hi));
-    double shift = 0;
     for (int i = 0; i < 2; ++i) {
       const Rational c(tile.center[i]), h(tile.half[i]);
       piece->origin[i] = Rational(((from[i] + to[i]) / 2 - c) / h).get_d();
       piece->direction[i] = Rational((to[i] - from[i]) / 2 / h).get_d();
-      // What the rounding of a parameter moves.
-      shift = std::max(shift, std::fabs(path_.direction[i]) * path_.reach() / tile.half[i]);
     }
-    piece->shift = roundings(10) * shift + roundings(8);
+    piece->shift = roundings(8);
     return bound_errors(piece);
   }
 
@@ -286,7 +291,16 @@ class PathSearch {
   const Part& restrict_by_powers(Piece* piece) {
     const Tile& tile = *piece->tile;
     substitute(tile, piece->origin, piece->direction, *piece->tables, &waiting()[top_].net);
-    return push(piece, roundings(substitution_roundings(tile.degree)) * tile.sum);
+    const double rounding = roundings(substitution_roundings(tile.degree)) * tile.sum;
+    if (piece->local) {
+      // What the rounding of a parameter moves, along the path.
+      const double most_slope =
+          piece->degree() *
+              (largest_difference(waiting()[top_].net, piece->degree()) + 2 * rounding) +
+          piece->slope_error;
+      piece->error += roundings(10) * path_.reach() / (piece->hi - piece->lo) * most_slope * kUp;
+    }
+    return push(piece, rounding);
   }
 
   const Part& push(const Piece* piece, double rounding) {
@@ -380,7 +394,9 @@ class PathSearch {
           const double width = std::min(most, std::max(least, kRootWidth));
           return add_root(piece, part, v - width, v + width, v - newton);
         }
-        if (4 * value_error / slope > most) return Outcome::Hidden;
+        // Parts have less bend each; but all have the errors of the piece.
+        if (4 * value_error / slope > most)
+          return part.hi - part.lo > kLeastCutPart ? Outcome::Cut : Outcome::Hidden;
       }
       // Halley's step.
       const double divisor = 1 - 0.5 * newton * jet.bend / jet.slope;
@@ -451,20 +467,28 @@ class PathSearch {
       restrict_by_powers(&same);
       return settle(same, 1);
     }
+    double step = hi - lo;
     int bits = kernel_.start_bits;
     if (piece.local) {
       bits = piece.tile->bits;
-      // Doubles stand for sums of two there.
-      if (part.hi - part.lo > 0.125) bits = kernel_.next(std::max(bits, 2 * Kernel::kDoubleBits));
+      if (part.hi - part.lo > 0.125) {
+        // The same once more would not help: shorter pieces where terms are missing, or more bits
+        // (doubles stand for sums of two there).
+        if (f_.polynomial().degree() > Tile::kMaxDegree &&
+            piece.tile->error > kExpansionError * piece.tile->sum)
+          step *= 0.25;
+        else
+          bits = kernel_.next(std::max(bits, 2 * Kernel::kDoubleBits));
+      }
     }
-    return bits > 0 && cover_locally(lo, hi, bits, level + 1);
+    return bits > 0 && cover_locally(lo, hi, step, bits, level + 1);
   }
 
   /// Settles a part of the path with tiles made for it.
-  bool cover_locally(double lo, double hi, int bits, int level) {
+  bool cover_locally(double lo, double hi, double step, int bits, int level) {
     if (level > kMaxLevel || top_ + 1 >= kMaxWaiting) return false;
     Tile tile;
-    double from = lo, step = hi - lo;
+    double from = lo;
     while (from < hi) {
       if (--nodes_left_ < 0) return false;
       Piece piece;
