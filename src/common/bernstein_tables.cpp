@@ -85,8 +85,17 @@ std::unique_ptr<const BernsteinTables> make_tables(int n) {
       if (k <= j) tables->lower[k][j] = std::ldexp(binomial(j, k).get_d(), -j);
       if (k >= j) tables->upper[k][j] = std::ldexp(binomial(n - j, n - k).get_d(), -(n - j));
     }
-  for (int d = 0; d < 3; ++d)
-    for (int j = 0; j <= n - d; ++j) tables->binomials[d][j] = binomial(n - d, j).get_d();
+  for (int k = 0; k <= n; ++k)
+    for (int i = 0; i < 8; ++i) {
+      const double v = (i + 1) / 9.0;
+      tables->samples[k][i] = binomial(n, k).get_d() * std::pow(v, k) * std::pow(1 - v, n - k);
+    }
+  for (int j = 0; j <= n - 2; ++j) tables->weights[j] = binomial(n - 2, j).get_d();
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < BernsteinTables::kSize; ++j) {
+      tables->up_bits[k][j] = (j >> k) & 1;
+      tables->down_bits[k][j] = (std::max(0, n - 2 - j) >> k) & 1;
+    }
   return tables;
 }
 

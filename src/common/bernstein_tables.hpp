@@ -7,7 +7,7 @@ namespace encase {
 
 /// Constant matrices for polynomials in one variable of one degree up to 15, in Bernstein form.
 /// Every row is padded with zeros to 16 entries. The entries are exact values rounded to nearest
-/// or truncated; those of `lower`, `upper` and the binomials are exact.
+/// or truncated; those of `lower`, `upper` and `weights` are exact.
 struct BernsteinTables {
   static constexpr int kMaxDegree = 15;
   static constexpr int kSize = kMaxDegree + 1;
@@ -24,8 +24,12 @@ struct BernsteinTables {
   alignas(64) Matrix from_powers{};
   /// Row k: what coefficient k contributes to the coefficients on the lower and upper half.
   alignas(64) Matrix lower{}, upper{};
-  /// binomials[d]: of degree - d, for the polynomial and its first two derivatives.
-  alignas(64) std::array<Row, 3> binomials{};
+  /// Row k: the values of the k-th Bernstein polynomial at 1/9, ..., 8/9 of the way, about.
+  alignas(64) std::array<std::array<double, 8>, kSize> samples{};
+  /// Entry j: the binomial coefficient of degree - 2 over j (degree >= 2).
+  alignas(64) Row weights{};
+  /// Entry j of row k: bit k of j, and of degree - 2 - j where that is positive, as 0 or 1.
+  alignas(64) std::array<Row, 4> up_bits{}, down_bits{};
   /// At least the sum of |contributions| of all values to any one Bernstein coefficient.
   double values_norm = 0;
   int degree = 0;

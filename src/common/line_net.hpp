@@ -18,33 +18,56 @@ struct SignBits {
   std::uint32_t negative = 0;
 };
 
-/// The Bernstein coefficients of a polynomial on an interval, zeros beyond its degree.
+/// The Bernstein coefficients of a polynomial on [0, 1], zeros beyond its degree, and the signs of
+/// those that exceed a threshold.
 struct alignas(64) LineNet {
-  std::array<double, BernsteinTables::kSize> b;
+  std::array<double, BernsteinTables::kSize + 2> b{};
+  SignBits signs;
 };
 
 /// The polynomial of a tile on the segment origin + direction s, |s| <= 1, in the tile's
 /// coordinates, from its values at the nodes of the tables. Its coefficients each err by at most
 /// interpolation_roundings(degree) u values_norm sum |a_ij| kReach^(i+j), if the segment lies
-/// within the tile's reach. Requires tables.degree == tile.degree.
+/// within the tile's reach. Here and below `degree` is that of the tables, at least the tile's.
 void interpolate(const Tile& tile, const Point<2>& origin, const Point<2>& direction,
-                 const BernsteinTables& tables, LineNet* net);
+                 const BernsteinTables& tables, double threshold, LineNet* net);
 
 /// The same by Taylor's coefficients in s, slower, with errors of at most
-/// substitution_roundings(degree) u sum |a_ij| kReach^(i+j).
+/// substitution_roundings(degree) u sum |a_ij| kReach^(i+j). Without signs.
 void substitute(const Tile& tile, const Point<2>& origin, const Point<2>& direction,
                 const BernsteinTables& tables, LineNet* net);
 
 /// Restricts to the halves, or to the parts below and above a fraction of the way; `upper` may be
 /// `net`. Adds an error of at most cutting_roundings(degree) u max |b|. Requires that fraction is a
 /// multiple of 2^-10.
-void halve(const LineNet& net, const BernsteinTables& tables, LineNet* lower, LineNet* upper);
-void cut(const LineNet& net, int degree, double fraction, LineNet* lower, LineNet* upper);
+void halve(const LineNet& net, const BernsteinTables& tables, double threshold, LineNet* lower,
+           LineNet* upper);
+void cut(const LineNet& net, const BernsteinTables& tables, double fraction, double threshold,
+         LineNet* lower, LineNet* upper);
 
-/// The signs of the coefficients that exceed a threshold.
+/// The signs of the coefficients that exceed a threshold, and of the differences of neighbours.
 SignBits signs(const LineNet& net, int degree, double threshold);
-/// The signs of the differences of neighbours.
 SignBits rises(const LineNet& net, int degree, double threshold);
+
+/// The largest absolute value of a coefficient.
+double largest_coefficient(const LineNet& net);
+
+/// How far a net's function is from the net: the value, the first and the second derivative.
+struct NetErrors {
+  double value, slope, bend;
+};
+/// Where a net's function is proved to change sign, just once and with a slope that is not zero.
+struct SignChange {
+  enum class Verdict { Found, TooMuchBend, TooMuchError } verdict;
+  double lo, hi;
+  double at;  ///< about where
+};
+/// Finds the sign change of a function that has opposite signs at 0 and 1 (`rises`: the positive
+/// one at 1) and is monotone, or such that the net changes sign just once, also after a shift by no
+/// more than the errors. These are to include those of the coefficients; `largest` is at least the
+/// largest coefficient. Requires degree >= 2.
+SignChange find_sign_change(const LineNet& net, const BernsteinTables& tables, bool rises,
+                            double largest, const NetErrors& errors);
 
 /// The value of a tile's polynomial at s, to within value_roundings(degree) u sum |a_ij|
 /// kReach^(i+j).

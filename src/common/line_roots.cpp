@@ -24,7 +24,6 @@ constexpr double kLeastCutPart = 0x1p-5;     // of one that is cut for its bend 
 constexpr double kExpansionError = 0x1p-50;  // of a tile that lacks no terms, about
 constexpr double kLocalError = 0x1p-28;      // of a local tile that serves, relative to its sum
 constexpr int kMaxNodesWithoutRoot = 4000;
-constexpr double kRootWidth = 0x1p-10;  // of half a root's interval, relative to its part
 
 double roundings(int count) { return 1.01 * count * kRounding; }
 
@@ -81,9 +80,9 @@ struct Piece {
   double shift = 0;            ///< bounds the error of a point's coordinates in the tile
   double error = 0;            ///< |f - g|
   double slope_error = 0;      ///< |f' - g'|, with respect to u
-  double rounding = 0;         ///< of every Bernstein coefficient of g
+  double largest = 0;          ///< at least the largest Bernstein coefficient of g
+  bool local = false;          ///< the tile was made for this piece
 
-  bool local = false;  ///< the tile was made for this piece
   int degree() const { return tables->degree; }
   double parameter(double u) const {
     if (u <= 0) return lo;
@@ -96,8 +95,7 @@ struct Piece {
 struct Part {
   LineNet net;
   double lo, hi;
-  double rounding;
-  SignBits signs;
+  double rounding;  ///< of every coefficient
 };
 
 /// The parts that wait; nested searches go on above those of the outer ones.
@@ -122,67 +120,10 @@ bool one_variation(const SignBits& bits, std::uint32_t all) {
          (unknown & (unknown - 1)) == 0;
 }
 
-double largest_coefficient(const LineNet& net) {
-  double largest = 0;
-  for (const double b : net.b) largest = std::max(largest, std::fabs(b));
-  return largest;
-}
-
 double largest_difference(const LineNet& net, int degree) {
   double largest = 0;
   for (int j = 0; j < degree; ++j) largest = std::max(largest, std::fabs(net.b[j + 1] - net.b[j]));
   return largest;
-}
-
-double largest_second_difference(const LineNet& net, int degree) {
-  double largest = 0;
-  for (int j = 0; j + 2 <= degree; ++j)
-    largest =
-        std::max(largest, std::fabs((net.b[j + 2] - net.b[j + 1]) - (net.b[j + 1] - net.b[j])));
-  return largest;
-}
-
-/// The value of a net and its derivatives at v in [0, 1].
-struct Jet {
-  double value = 0, slope = 0, bend = 0;
-};
-
-Jet jet_at(const LineNet& net, const BernsteinTables& tables, double v) {
-  // Horner's rule in x / y, from the end that is nearer to v.
-  const int n = tables.degree;
-  const bool mirror = v > 0.5;
-  const double x = mirror ? 1 - v : v, y = mirror ? v : 1 - v, z = x / y;
-  const auto b = [&](int j) { return net.b[mirror ? n - j : j]; };
-  Jet jet;
-  double next = b(n), next_rise = 0;
-  jet.value = next;
-  for (int j = n - 1; j >= 0; --j) {
-    const double here = b(j), rise = next - here;
-    jet.value = jet.value * z + tables.binomials[0][j] * here;
-    jet.slope = jet.slope * z + tables.binomials[1][j] * rise;
-    if (j < n - 1) jet.bend = jet.bend * z + tables.binomials[2][j] * (next_rise - rise);
-    next = here;
-    next_rise = rise;
-  }
-  double power = 1;
-  for (int j = 0; j < n - 2; ++j) power *= y;
-  jet.bend *= power * (n * (n - 1));
-  if (n > 1) power *= y;
-  jet.slope *= mirror ? -power * n : power * n;
-  if (n > 0) power *= y;
-  jet.value *= power;
-  return jet;
-}
-
-constexpr int jet_roundings(int degree) { return 6 * degree + 10; }
-
-/// About where a net changes sign: where its control polygon does.
-double crossing(const LineNet& net, int degree) {
-  for (int j = 1; j <= degree; ++j) {
-    const double a = net.b[j - 1], b = net.b[j];
-    if ((a > 0) != (b > 0)) return std::clamp((j - 1 + a / (a - b)) / degree, 0.0, 1.0);
-  }
-  return std::fabs(net.b[0]) < std::fabs(net.b[degree]) ? 0 : 1;
 }
 
 /// Looks for the roots on a path. Where it is not given a list for them it fails at the first.
@@ -206,7 +147,7 @@ class PathSearch {
         piece.hi = leave(tile, hi, 1 + overlap);
         if (!(piece.lo < piece.hi) || !place(&piece)) break;
         const Part& whole = restrict_by_values(&piece);
-        if (piece.hi < hi && !known(whole.signs, piece.degree())) continue;
+        if (piece.hi < hi && !known(whole.net.signs, piece.degree())) continue;
         if (!settle(piece, 0)) return false;
         from = piece.hi;
         break;
@@ -271,7 +212,7 @@ class PathSearch {
       if (!(tile.half[i] >= 0x1p-400) || !(extent <= Tile::kReach)) return false;
     }
     const double way = 2 * (std::fabs(piece->direction[0]) + std::fabs(piece->direction[1]));
-    piece->tables = &bernstein_tables(tile.degree);
+    piece->tables = &bernstein_tables(std::max(2, tile.degree));
     piece->error = (tile.error + piece->shift * tile.slope) * kUp + kUnderflow;
     piece->slope_error =
         way * (tile.slope_error + tile.degree * piece->shift * tile.slope) * kUp + kUnderflow;
@@ -279,37 +220,42 @@ class PathSearch {
   }
 
   const Part& restrict_by_values(Piece* piece) {
+    ++kernel_.restrictions;
     const Tile& tile = *piece->tile;
-    Part& whole = waiting()[top_];
-    interpolate(tile, piece->origin, piece->direction, *piece->tables, &whole.net);
+    Part& whole = first_part();
     // The nodes' images are rounded: twice, each to at most kReach.
     const double at_nodes =
-        roundings(interpolation_roundings(tile.degree)) * tile.sum + roundings(3) * tile.slope;
-    return push(piece, piece->tables->values_norm * at_nodes);
+        roundings(interpolation_roundings(piece->degree())) * tile.sum + roundings(3) * tile.slope;
+    whole.rounding = piece->tables->values_norm * at_nodes * kUp + kUnderflow;
+    interpolate(tile, piece->origin, piece->direction, *piece->tables,
+                (whole.rounding + piece->error) * kUp, &whole.net);
+    // The coefficients are means of values of products of factors up to kReach.
+    piece->largest = tile.sum + whole.rounding;
+    return whole;
   }
 
   const Part& restrict_by_powers(Piece* piece) {
+    ++kernel_.restrictions;
     const Tile& tile = *piece->tile;
-    substitute(tile, piece->origin, piece->direction, *piece->tables, &waiting()[top_].net);
-    const double rounding = roundings(substitution_roundings(tile.degree)) * tile.sum;
+    const int n = piece->degree();
+    Part& whole = first_part();
+    whole.rounding = roundings(substitution_roundings(n)) * tile.sum * kUp + kUnderflow;
+    substitute(tile, piece->origin, piece->direction, *piece->tables, &whole.net);
+    piece->largest = largest_coefficient(whole.net);
     if (piece->local) {
       // What the rounding of a parameter moves, along the path.
       const double most_slope =
-          piece->degree() *
-              (largest_difference(waiting()[top_].net, piece->degree()) + 2 * rounding) +
-          piece->slope_error;
+          n * (largest_difference(whole.net, n) + 2 * whole.rounding) + piece->slope_error;
       piece->error += roundings(10) * path_.reach() / (piece->hi - piece->lo) * most_slope * kUp;
     }
-    return push(piece, rounding);
+    whole.net.signs = signs(whole.net, n, (whole.rounding + piece->error) * kUp);
+    return whole;
   }
 
-  const Part& push(const Piece* piece, double rounding) {
-    ++kernel_.restrictions;
+  Part& first_part() {
     Part& whole = waiting()[top_];
     whole.lo = 0;
     whole.hi = 1;
-    whole.rounding = rounding * kUp + kUnderflow;
-    whole.signs = signs(whole.net, piece->degree(), (whole.rounding + piece->error) * kUp);
     return whole;
   }
 
@@ -337,18 +283,19 @@ class PathSearch {
   Outcome examine(const Piece& piece, Part& part, int level) {
     const int n = piece.degree();
     const std::uint32_t all = (2u << n) - 1;
-    if (part.signs.positive == all || part.signs.negative == all) return settled(piece);
-    const bool ends_known = known(part.signs, 0) && known(part.signs, n);
-    if (ends_known && one_variation(part.signs, all)) return enclose_root(piece, part);
+    if (part.net.signs.positive == all || part.net.signs.negative == all) return settled(piece);
+    const bool ends_known = known(part.net.signs, 0) && known(part.net.signs, n);
+    if (ends_known && one_variation(part.net.signs, all)) return enclose_root(piece, part);
     const double threshold =
         (2 * part.rounding + piece.slope_error * (part.hi - part.lo) / n) * (1 + 0x1p-30);
     const SignBits slopes = rises(part.net, n, threshold);
     if (slopes.positive == all >> 1 || slopes.negative == all >> 1) {
       if (!ends_known && (level == 0 || !prove_ends(piece, &part))) return Outcome::Hidden;
-      if (positive(part.signs, 0) != positive(part.signs, n)) return enclose_root(piece, part);
+      if (positive(part.net.signs, 0) != positive(part.net.signs, n))
+        return enclose_root(piece, part);
       return settled(piece);
     }
-    const bool drowned = part.signs.positive == 0 || part.signs.negative == 0;
+    const bool drowned = part.net.signs.positive == 0 || part.net.signs.negative == 0;
     return ends_known && !drowned ? Outcome::Cut : Outcome::Hidden;
   }
 
@@ -356,12 +303,12 @@ class PathSearch {
   bool prove_ends(const Piece& piece, Part* part) {
     const int n = piece.degree();
     for (const int j : {0, n}) {
-      if (known(part->signs, j)) continue;
+      if (known(part->net.signs, j)) continue;
       if (j == 0 ? part->lo != 0 : part->hi != 1) return false;
       const Rational t(j == 0 ? piece.lo : piece.hi);
       const Sign sign = f_.polynomial().sign_at(path_.exactly_at(t), kernel_);
       if (sign == Sign::Zero) return false;
-      (sign == Sign::Positive ? part->signs.positive : part->signs.negative) |= 1u << j;
+      (sign == Sign::Positive ? part->net.signs.positive : part->net.signs.negative) |= 1u << j;
     }
     return true;
   }
@@ -369,41 +316,18 @@ class PathSearch {
   /// The part has one sign change of g, and known signs at its ends: f has no root away from it.
   /// Encloses it where f is proved to be monotone.
   Outcome enclose_root(const Piece& piece, const Part& part) {
-    const BernsteinTables& tables = *piece.tables;
-    const int n = tables.degree;
-    const double largest = largest_coefficient(part.net);
-    const double value_error =
-        (part.rounding + piece.error + roundings(jet_roundings(n)) * largest) * kUp;
-    const double slope_error =
-        (n * (2 * part.rounding + roundings(jet_roundings(n)) * 2 * largest) +
-         piece.slope_error * (part.hi - part.lo)) *
-        kUp;
-    const double most_bend =
-        n * (n - 1) * kUp *
-        (largest_second_difference(part.net, n) + 4 * part.rounding + roundings(8) * largest);
-    double v = crossing(part.net, n);
-    for (int step = 0; step < 6; ++step) {
-      const Jet jet = jet_at(part.net, tables, v);
-      const double slope = std::fabs(jet.slope) - slope_error;
-      const double newton = jet.value / jet.slope;
-      if (slope > 0) {
-        // |f'| > slope / 2 as far as `most` from v, so that |f(v +- least)| > 0.
-        const double most = most_bend > 0 ? 0.49 * slope / most_bend : 1;
-        const double least = 2.02 * (std::fabs(jet.value) + value_error) / slope;
-        if (least <= most && (least <= kRootWidth || step >= 3)) {
-          const double width = std::min(most, std::max(least, kRootWidth));
-          return add_root(piece, part, v - width, v + width, v - newton);
-        }
-        // Parts have less bend each; but all have the errors of the piece.
-        if (4 * value_error / slope > most)
-          return part.hi - part.lo > kLeastCutPart ? Outcome::Cut : Outcome::Hidden;
-      }
-      // Halley's step.
-      const double divisor = 1 - 0.5 * newton * jet.bend / jet.slope;
-      const double next = v - (divisor > 0.5 ? newton / divisor : newton);
-      v = next >= 0 && next <= 1 ? next : next < 0 ? 0.5 * v : 0.5 + 0.5 * v;
-    }
-    return Outcome::Cut;
+    const int n = piece.degree();
+    const NetErrors errors{(part.rounding + piece.error) * kUp,
+                           (2 * n * part.rounding + piece.slope_error * (part.hi - part.lo)) * kUp,
+                           4 * n * (n - 1) * part.rounding * kUp};
+    const SignChange change = find_sign_change(part.net, *piece.tables, positive(part.net.signs, n),
+                                               piece.largest, errors);
+    if (change.verdict == SignChange::Verdict::Found)
+      return add_root(piece, part, change.lo, change.hi, change.at);
+    // Smaller parts have less bend each; but all have the errors of the piece.
+    const bool cuts_help =
+        change.verdict == SignChange::Verdict::TooMuchBend || part.hi - part.lo > kLeastCutPart;
+    return cuts_help ? Outcome::Cut : Outcome::Hidden;
   }
 
   Outcome add_root(const Piece& piece, const Part& part, double lo, double hi, double at) {
@@ -434,20 +358,17 @@ class PathSearch {
     const int n = piece.degree();
     const LineNet net = upper.net;
     const double rounding =
-        (upper.rounding + roundings(cutting_roundings(n)) * largest_coefficient(net)) * kUp;
+        (upper.rounding + roundings(cutting_roundings(n)) * piece.largest) * kUp;
     const double threshold = (rounding + piece.error) * kUp;
     for (const double fraction : {0.5, 0.4375, 0.5625, 0.375, 0.625}) {
       if (fraction == 0.5)
-        halve(net, *piece.tables, &lower.net, &upper.net);
+        halve(net, *piece.tables, threshold, &lower.net, &upper.net);
       else
-        cut(net, n, fraction, &lower.net, &upper.net);
-      if (!(std::fabs(upper.net.b[0]) > threshold && std::fabs(lower.net.b[n]) > threshold))
-        continue;
+        cut(net, *piece.tables, fraction, threshold, &lower.net, &upper.net);
+      if (!known(upper.net.signs, 0) || !known(lower.net.signs, n)) continue;
       lower.lo = upper.lo;
       lower.hi = upper.lo = upper.lo + fraction * width;
       lower.rounding = upper.rounding = rounding;
-      lower.signs = signs(lower.net, n, threshold);
-      upper.signs = signs(upper.net, n, threshold);
       ++top_;
       return true;
     }
@@ -501,7 +422,7 @@ class PathSearch {
       const bool serves = tile.error <= kLocalError * tile.sum || step < 0x1p-10 * (hi - lo);
       if (!place_exactly(&piece)) return false;
       const Part& whole = restrict_by_powers(&piece);
-      if (!serves || (piece.hi < hi && !known(whole.signs, piece.degree()))) {
+      if (!serves || (piece.hi < hi && !known(whole.net.signs, piece.degree()))) {
         step *= serves ? 0.875 : 0.5;
         continue;
       }

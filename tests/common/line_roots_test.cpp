@@ -362,7 +362,7 @@ TEST(LineNet, ErrorsAreWithinTheirBounds) {
       }
       const std::vector<Rational> exact = exact_net(tile, origin, direction);
       LineNet net, precise;
-      interpolate(tile, origin, direction, tables, &net);
+      interpolate(tile, origin, direction, tables, 0, &net);
       const double bound = tables.values_norm *
                            (interpolation_roundings(degree) * u * tile.sum + 3 * u * tile.slope);
       EXPECT_LE(largest_error(net, exact), Rational(bound));
@@ -378,9 +378,9 @@ TEST(LineNet, ErrorsAreWithinTheirBounds) {
       for (const double fraction : {0.5, 0.375}) {
         LineNet lower, upper;
         if (fraction == 0.5)
-          halve(precise, tables, &lower, &upper);
+          halve(precise, tables, 0, &lower, &upper);
         else
-          cut(precise, degree, fraction, &lower, &upper);
+          cut(precise, tables, fraction, 0, &lower, &upper);
         // The segments' ends have to be doubles for `exact_net`: take multiples of 2^-20.
         Point<2> o, d, low_o, low_d, up_o, up_d;
         for (int k = 0; k < 2; ++k) {
@@ -393,9 +393,9 @@ TEST(LineNet, ErrorsAreWithinTheirBounds) {
         }
         substitute(tile, o, d, tables, &precise);
         if (fraction == 0.5)
-          halve(precise, tables, &lower, &upper);
+          halve(precise, tables, 0, &lower, &upper);
         else
-          cut(precise, degree, fraction, &lower, &upper);
+          cut(precise, tables, fraction, 0, &lower, &upper);
         const Rational own = Rational(substitution_roundings(degree) * u * tile.sum) + cut_bound;
         EXPECT_LE(largest_error(lower, exact_net(tile, low_o, low_d)), own);
         EXPECT_LE(largest_error(upper, exact_net(tile, up_o, up_d)), own);
@@ -425,6 +425,36 @@ TEST(LineNet, SignsAreThoseBeyondTheThreshold) {
   EXPECT_EQ(up.positive, 0b001010000u);
   EXPECT_EQ(up.negative, 0b100100001u);
   EXPECT_EQ(signs(net, 9, NAN).positive, 0u);
+}
+
+TEST(LineNet, SignChangeIsBetweenItsBounds) {
+  std::mt19937_64 generator(7);
+  int found = 0, at_end = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const int degree = 2 + i % 14, positives = 1 + i % degree;
+    const bool rises = i % 3 == 0;
+    LineNet net;
+    Bernstein<1> exact;
+    exact.degree = {degree};
+    for (int j = 0; j <= degree; ++j) {
+      const double size = std::exp2(12 * symmetric_random(generator));
+      net.b[j] = (j < positives) != rises ? size : -size;
+      exact.b.push_back(net.b[j]);
+    }
+    const SignChange change =
+        find_sign_change(net, bernstein_tables(degree), rises, largest_coefficient(net), {0, 0, 0});
+    if (change.verdict != SignChange::Verdict::Found) continue;
+    ++found;
+    EXPECT_LE(change.lo, change.at);
+    EXPECT_LE(change.at, change.hi);
+    const Polynomial<1> polynomial = exact_bernstein::polynomial<1>(exact);  // on [-1, 1]
+    const auto sign_at = [&](double v) { return sgn(polynomial({2 * Rational(v) - 1})); };
+    EXPECT_EQ(sign_at(change.lo), rises ? -1 : 1);
+    EXPECT_EQ(sign_at(change.hi), rises ? 1 : -1);
+    if (change.lo == 0 || change.hi == 1) ++at_end;
+  }
+  EXPECT_GT(found, 2000);
+  EXPECT_GT(at_end, 50);
 }
 
 TEST(NoLineRoot, OnLinesAndSegmentsIncludesTheEnds) {
