@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/line_net.hpp"
 #include "common/segments.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kRounding = 0x1p-53;
 constexpr double kUp = 1 + 0x1p-40;      // outweighs the roundings of a bound's own evaluation
+constexpr double kTiny = 0x1p-1000;      // beside which no underflow counts
 constexpr double kUnderflow = 0x1p-960;  // more than all underflows of one net add up to
 
 constexpr int kMaxTiles = 1000;              // along one path
@@ -33,12 +35,17 @@ class Path {
   /// Of a line; t at most `reach` in absolute value.
   Path(const Line& line, double reach) : line_(&line), reach_(reach) {
     const int p = parameter_axis(line), q = 1 - p;
+    const double inverse = -1 / line.normal[q];
     base[p] = 0;
     direction[p] = 1;
-    base[q] = -line.offset / line.normal[q];
-    direction[q] = -line.normal[p] / line.normal[q];
     magnitude[p] = reach;
-    magnitude[q] = reach_across(line, reach);
+    base[q] = line.offset * inverse;
+    direction[q] = line.normal[p] * inverse;
+    // As in `reach_across`.
+    const double terms =
+        (std::fabs(line.normal[p]) + kTiny) * reach + std::fabs(line.offset) + kTiny;
+    magnitude[q] = std::fabs(line.normal[q]) >= 0x1p-900 ? terms * std::fabs(inverse) * kUp + kTiny
+                                                         : std::numeric_limits<double>::infinity();
   }
   Path(const Point<2>& from, const Point<2>& to) : from_(&from), to_(&to), reach_(1) {
     for (int i = 0; i < 2; ++i) {
@@ -94,15 +101,12 @@ struct Piece {
 /// A part [lo, hi] of a piece's [0, 1], with the net there.
 struct Part {
   LineNet net;
-  double lo, hi;
-  double rounding;  ///< of every coefficient
+  double lo = 0, hi = 1;
+  double rounding = 0;  ///< of every coefficient
 };
 
 /// The parts that wait; nested searches go on above those of the outer ones.
-std::array<Part, kMaxWaiting>& waiting() {
-  thread_local std::array<Part, kMaxWaiting> parts;
-  return parts;
-}
+constinit thread_local std::array<Part, kMaxWaiting> waiting_parts{};
 
 enum class Outcome { Settled, Cut, Hidden };
 
@@ -134,30 +138,41 @@ class PathSearch {
       : f_(f), path_(path), kernel_(kernel), roots_(roots), nodes_left_(max_nodes) {}
 
   bool run(double lo, double hi) {
-    const bool with_tree = kernel_.start_bits <= Kernel::kDoubleBits;
     double from = lo;
-    for (int tiles = 0; with_tree && from < hi && tiles < kMaxTiles; ++tiles) {
-      const Tile& tile = f_.at(path_.at(from));
-      const double start = from;
-      // The value at a cut is to be proved not to be zero: else the cut is moved.
-      for (const double overlap : {0x1p-11, 0x1p-12, 0x1.8p-11, 0x1p-13}) {
-        Piece piece;
-        piece.tile = &tile;
-        piece.lo = from;
-        piece.hi = leave(tile, hi, 1 + overlap);
-        if (!(piece.lo < piece.hi) || !place(&piece)) break;
-        const Part& whole = restrict_by_values(&piece);
-        if (piece.hi < hi && !known(whole.net.signs, piece.degree())) continue;
-        if (!settle(piece, 0)) return false;
-        from = piece.hi;
-        break;
+    if (kernel_.start_bits <= Kernel::kDoubleBits)
+      for (int tiles = 0; from < hi && tiles < kMaxTiles; ++tiles) {
+        const std::optional<double> to = cover_by_tile(from, hi);
+        if (!to) return false;
+        if (*to == from) break;
+        from = *to;
       }
-      if (from == start) break;
-    }
     return from == hi || cover_locally(from, hi, hi - from, kernel_.start_bits, 1);
   }
 
  private:
+  /// Settles a beginning of the path from `from` to `hi` by a tile of the tree; where that ends (at
+  /// `from` if the tree has none that serves), or nothing if it failed.
+  std::optional<double> cover_by_tile(double from, double hi) {
+    const Tile& tile = f_.at(path_.at(from));
+    Piece piece;
+    piece.tile = &tile;
+    piece.lo = from;
+    piece.hi = hi;
+    if (place(&piece)) {
+      restrict_by_values(&piece);
+      return settle(piece, 0) ? std::optional(hi) : std::nullopt;
+    }
+    // The value at a cut is to be proved not to be zero: else the cut is moved.
+    for (const double overlap : {0x1p-11, 0x1p-12, 0x1.8p-11, 0x1p-13}) {
+      piece.hi = leave(tile, hi, 1 + overlap);
+      if (!(piece.lo < piece.hi) || !place(&piece)) return from;
+      const Part& whole = restrict_by_values(&piece);
+      if (piece.hi < hi && !known(whole.net.signs, piece.degree())) continue;
+      return settle(piece, 0) ? std::optional(piece.hi) : std::nullopt;
+    }
+    return from;
+  }
+
   /// The parameter, up to `end`, where the path leaves a tile's rectangle enlarged by a factor.
   /// Approximate: `place` checks.
   double leave(const Tile& tile, double end, double factor) const {
@@ -186,7 +201,7 @@ class PathSearch {
       piece->direction[i] = path_.direction[i] * half * scale;
       shift = std::max(shift, (path_.magnitude[i] + std::fabs(tile.center[i])) * scale);
     }
-    piece->shift = roundings(24) * shift + roundings(8);
+    piece->shift = roundings(32) * shift + roundings(8);
     return bound_errors(piece);
   }
 
@@ -253,7 +268,7 @@ class PathSearch {
   }
 
   Part& first_part() {
-    Part& whole = waiting()[top_];
+    Part& whole = waiting_[top_];
     whole.lo = 0;
     whole.hi = 1;
     return whole;
@@ -264,7 +279,7 @@ class PathSearch {
     const int bottom = top_++;
     bool proved = true;
     while (proved && top_ > bottom) {
-      Part& part = waiting()[top_ - 1];
+      Part& part = waiting_[top_ - 1];
       Outcome outcome = --nodes_left_ >= 0 ? examine(piece, part, level) : Outcome::Hidden;
       if (outcome == Outcome::Hidden && gains_by_cutting(piece, part)) outcome = Outcome::Cut;
       if (outcome == Outcome::Cut && cut_in_two(piece)) continue;
@@ -352,7 +367,7 @@ class PathSearch {
   /// wherever it might be cut, or it is too small.
   bool cut_in_two(const Piece& piece) {
     if (top_ + 1 >= kMaxWaiting) return false;
-    Part &upper = waiting()[top_ - 1], &lower = waiting()[top_];
+    Part &upper = waiting_[top_ - 1], &lower = waiting_[top_];
     const double width = upper.hi - upper.lo;
     if (!(width >= kLeastPart)) return false;
     const int n = piece.degree();
@@ -450,6 +465,7 @@ class PathSearch {
   Kernel& kernel_;
   std::vector<LineRoot>* roots_;
   int nodes_left_;
+  Part* const waiting_ = waiting_parts.data();
   int top_ = 0;  ///< of the stack of parts
 };
 
@@ -504,7 +520,7 @@ Value value_on_line(TiledPolynomial& f, const Line& line, double parameter) {
     shift = std::max(shift, (path.magnitude[i] + std::fabs(tile.center[i])) * scale);
     if (!(std::fabs(s[i]) <= 1 + 0x1p-11) || !(tile.half[i] >= 0x1p-400)) return {};
   }
-  shift = roundings(24) * shift;
+  shift = roundings(12) * shift;
   if (!(shift <= 0x1p-12)) return {};
   const double error =
       tile.error + shift * tile.slope + roundings(value_roundings(tile.degree)) * tile.sum;
