@@ -271,7 +271,8 @@ const std::vector<Number>& FilteredPolynomial<D>::coefficients_in(int bits) cons
     return coefficients_;
   } else if constexpr (std::is_same_v<Number, long double>) {
     return cache_->get(cache_->extended, [this](std::vector<long double>& extended) {
-      extended.assign(coefficients_.size(), 0.0L);
+      extended.assign(coefficients_.begin(), coefficients_.end());
+      if (exact_coefficients_) return;
       for (const auto& term : exact_.terms())
         assign(extended[index_of(term.exponent, degree_)], scaled(term.coefficient));
     });
@@ -281,7 +282,12 @@ const std::vector<Number>& FilteredPolynomial<D>::coefficients_in(int bits) cons
     if (is_new) {
       entry->second.assign(coefficients_.size(), Mpfr(bits));
       for (const auto& term : exact_.terms()) {
-        Mpfr& c = entry->second[index_of(term.exponent, degree_)];
+        const std::size_t index = index_of(term.exponent, degree_);
+        Mpfr& c = entry->second[index];
+        if (exact_coefficients_) {
+          assign(c, coefficients_[index]);  // as much precision as a double at least
+          continue;
+        }
         assign(c, term.coefficient);
         mpfr_mul_2si(c.get(), c.get(), -static_cast<long>(exponent_), MPFR_RNDN);
       }
