@@ -22,8 +22,8 @@ constexpr double kWithCrossings = -1.8;
 constexpr double kFinishedCrossing = -0.4;
 constexpr double kFinishedBranch = 1;
 constexpr double kEmpty = 1.5;
-constexpr double kFurtherBranchOfOneCurve = 1;
-constexpr double kFurtherBranchOfCurves = 2;
+constexpr double kFurtherBranchOfOneCurve = 1.4;
+constexpr double kFurtherBranchOfCurves = 1.7;
 
 // What a line is worth besides.
 constexpr double kSliver = 0.045;  // for each halving of the distance to what is closest
@@ -100,11 +100,26 @@ const std::vector<CellAtHand::BoundaryPoint>& CellAtHand::points() {
   return points_;
 }
 
+/// The branches in a part, or at least so many while it is not known where the line crosses the
+/// curve: one if the curve has crossings there.
+int CellAtHand::branches_of(const Presence& p) {
+  return p.crossings > 0 ? std::max(1, (p.ends + 1) / 2) : (p.ends + 1) / 2;
+}
+
+bool CellAtHand::is_simple(const Part& part) {
+  int branches = 0;
+  for (const Presence& p : part.curves) {
+    if (p.ends > 2) return false;
+    branches += p.ends > 0;
+  }
+  return branches <= 1 || (branches == 2 && part.crossings == 1);
+}
+
 double CellAtHand::expected_cells(const Part& part) {
   int curves = 0, branches = 0;
   double loose = 0;
   for (const Presence& p : part.curves) {
-    const int count = (p.ends + 1) / 2;
+    const int count = branches_of(p);
     if (count == 0) continue;
     ++curves;
     branches += count;
@@ -123,8 +138,7 @@ double CellAtHand::expected_cells(const Part& part) {
 int CellAtHand::least_cells(const Part& part) {
   // Every crossing needs a cell of its own, and every branch that no crossing of its curve lies on.
   int total = part.crossings;
-  for (const Presence& p : part.curves)
-    total += std::max(0, (p.ends + 1) / 2 - (p.crossings > 0 ? 1 : 0));
+  for (const Presence& p : part.curves) total += branches_of(p) - (p.crossings > 0 ? 1 : 0);
   return std::max(1, total);
 }
 
@@ -249,6 +263,7 @@ void CellAtHand::propose(const Line& line) {
   ++partition_.lines_tried;
   if (!cuts_well(line)) return;
   trial_.line = line;
+  best_finishes_ = is_simple(parts_[0]) && is_simple(parts_[1]);
   for (int k = 0; k < 2; ++k) trial_.least_cells[k] = least_cells(parts_[k]);
   std::swap(trial_, best_);
   has_cut_ = true;

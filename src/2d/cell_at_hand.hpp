@@ -49,6 +49,8 @@ class CellAtHand {
   /// if the roots on it are not proved, or if the cut is not better than the best.
   void propose(const Line& line);
   bool has_cut() const { return has_cut_; }
+  /// Whether the best cut leaves two parts that need no further cut but for loops.
+  bool is_finished() const { return has_cut_ && best_finishes_; }
   Cut& cut() { return best_; }
   void drop_cut() { has_cut_ = false; }
 
@@ -57,6 +59,8 @@ class CellAtHand {
     std::vector<Presence> curves;
     int crossings = 0;
   };
+  static int branches_of(const Presence& presence);
+  static bool is_simple(const Part& part);
   static double expected_cells(const Part& part);
   static int least_cells(const Part& part);
   double score(double slivers) const;
@@ -77,7 +81,7 @@ class CellAtHand {
   bool has_points_ = false;
   std::vector<char> sides_;  // of the vertices
   Cut trial_, best_;
-  bool has_cut_ = false;
+  bool has_cut_ = false, best_finishes_ = false;
 };
 
 }  // namespace encase

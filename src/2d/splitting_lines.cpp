@@ -11,11 +11,12 @@ constexpr double kMiddle = 0.35;     // where the middle of the projections begi
 constexpr int kMaxBisected = 6;      // crossings up to which pairs of them are bisected
 constexpr int kBisectedPairs = 3;    // of crossings
 constexpr int kSaddles = 4;          // of a curve
-constexpr int kBranchPairs = 6;      // of boundary points of a curve, on different branches
-constexpr int kCurvePairs = 4;       // of neighbours on the boundary, of different curves
+constexpr int kBranchPairs = 4;      // of boundary points of a curve, on different branches
+constexpr int kCurvePairs = 3;       // of neighbours on the boundary, of different curves
 constexpr int kApproachedPairs = 5;  // of boundary points
-constexpr int kApproachSteps = 12;
-constexpr double kPoor = 0;  // a cut worse by this than no cut calls for closest approach
+constexpr int kApproachSteps = 2;
+constexpr int kProjections = 2;  // onto the curve, in each
+constexpr double kPoor = 0;      // a cut worse by this than no cut calls for closest approach
 
 double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
 Point<2> minus(const Point<2>& a, const Point<2>& b) { return {a[0] - b[0], a[1] - b[1]}; }
@@ -154,7 +155,8 @@ void SplittingLines::propose_between_curves() {
 }
 
 /// Moves two points along their curves towards each other (thesis 6.1): tangential steps that
-/// minimise the distance to first order, then back onto the curve.
+/// minimise the distance to first order, then back towards the curve. Two steps do: what matters is
+/// a line that both branches leave on their own sides, not the closest pair.
 bool SplittingLines::approach(BoundaryPoint* a, BoundaryPoint* b) const {
   const Box<2> bounds = bounds_of(cell_.cell());
   const double reach = 0.25 * (bounds.width(0) + bounds.width(1));
@@ -163,16 +165,16 @@ bool SplittingLines::approach(BoundaryPoint* a, BoundaryPoint* b) const {
     const auto& f = partition_.curves()[p->curve];
     p->at[0] += -p->normal[1] * step;
     p->at[1] += p->normal[0] * step;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < kProjections; ++i) {
       const auto [value, g] = f.value_and_gradient(p->at);
       const double square = dot(g, g);
       if (!(square > 0)) return false;
+      for (int k = 0; k < 2; ++k) {
+        p->at[k] -= std::clamp(value / square * g[k], -reach, reach);
+      }
       p->normal = unit(g);
-      const double v = value / square;
-      p->at[0] -= std::clamp(v * g[0], -reach, reach);
-      p->at[1] -= std::clamp(v * g[1], -reach, reach);
     }
-    for (int i = 0; i < 2; ++i) p->at[i] = std::clamp(p->at[i], bounds.lo[i], bounds.hi[i]);
+    for (int k = 0; k < 2; ++k) p->at[k] = std::clamp(p->at[k], bounds.lo[k], bounds.hi[k]);
     return std::isfinite(p->normal[0]) && std::isfinite(p->normal[1]);
   };
   for (int i = 0; i < kApproachSteps; ++i) {
@@ -189,7 +191,6 @@ bool SplittingLines::approach(BoundaryPoint* a, BoundaryPoint* b) const {
       v = -0.5 * q;
     }
     if (!advance(a, u) || !advance(b, v)) return false;
-    if (std::fabs(u) + std::fabs(v) < 1e-9 * reach) break;
   }
   return true;
 }
@@ -206,6 +207,7 @@ void SplittingLines::propose_closest_approach() {
   for (const Pair& pair : pairs_) {
     BoundaryPoint a = points[pair.a], b = points[pair.b];
     if (approach(&a, &b)) cell_.propose(between(a, b));
+    if (cell_.is_finished()) return;
   }
 }
 
@@ -275,9 +277,9 @@ bool SplittingLines::find_best() {
     if (!cell_.has_cut()) propose_bisector();
     if (cell_.has_cut()) return true;
   }
-  propose_between_crossings();
-  propose_between_branches();
-  propose_between_curves();
+  if (!cell_.is_finished()) propose_between_crossings();
+  if (!cell_.is_finished()) propose_between_branches();
+  if (!cell_.is_finished()) propose_between_curves();
   if (!cell_.has_cut() || cell_.cut().score > cell_.expected_cells() + kPoor)
     propose_closest_approach();
   if (!cell_.has_cut()) propose_bisector();
