@@ -74,9 +74,12 @@ void CellAtHand::take(const OpenCell& cell) {
   crossings_.clear();
   for (const int id : cell.crossings) {
     const Crossing& crossing = partition_.crossings[id];
-    crossings_.emplace_back(crossing.box);
-    for (const int c : crossing.curves)
-      if (slot_[c] >= 0) ++whole_.curves[slot_[c]].crossings;
+    // Curves that cross in the cell without crossing its boundary are present by their loops,
+    // unless a splitting line has met the critical region: then they count for nothing.
+    const std::array<int, 2> slots{slot_[crossing.curves[0]], slot_[crossing.curves[1]]};
+    crossings_.push_back({crossing.box, slots});
+    for (const int s : slots)
+      if (s >= 0) ++whole_.curves[s].crossings;
   }
   double square = 0;
   for (const Place& v : cell.vertices) {
@@ -142,9 +145,17 @@ int CellAtHand::least_cells(const Part& part) {
   return std::max(1, total);
 }
 
-double CellAtHand::score(double slivers) const {
+void CellAtHand::find_score() {
   const double a = expected_cells(parts_[0]), b = expected_cells(parts_[1]);
-  return a + b + slivers - kBalance * std::min(a, b) / (a + b);
+  trial_.score = a + b + slivers_ - kBalance * std::min(a, b) / (a + b);
+}
+
+/// Whether the line cannot become better than the best. Counts only grow, so this may be asked
+/// before all curves are restricted to it.
+bool CellAtHand::is_beaten() {
+  if (!has_cut_) return false;
+  find_score();
+  return !(trial_.score < best_.score - 1e-9);
 }
 
 /// The edges where the line enters and leaves, and how close it comes to a vertex.
@@ -179,18 +190,18 @@ bool CellAtHand::divide_crossings(const Line& line, double* clearance) {
   }
   trial_.positive.resize(crossings_.size());
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const LineValue at = value_at(line, crossings_[i]);
+    const LineValue at = value_at(line, crossings_[i].place);
     bool positive = at.value > 0;
     if (!(std::fabs(at.value) > at.error)) {
-      const auto s = side(line, crossings_[i].box, partition_.kernel());
+      const auto s = side(line, crossings_[i].place.box, partition_.kernel());
       if (!s) return false;
       positive = *s == Sign::Positive;
     }
     trial_.positive[i] = positive;
     *clearance = std::min(*clearance, std::fabs(at.value));
     ++parts_[positive].crossings;
-    for (const int c : partition_.crossings[cell_->crossings[i]].curves)
-      if (slot_[c] >= 0) ++parts_[positive].curves[slot_[c]].crossings;
+    for (const int s : crossings_[i].slots)
+      if (s >= 0) ++parts_[positive].curves[s].crossings;
   }
   for (const int id : cell_->zones)
     if (!side(line, partition_.zones[id].box, partition_.kernel())) return false;
@@ -221,7 +232,7 @@ bool CellAtHand::count_old_crossings(const Line& line) {
   return true;
 }
 
-bool CellAtHand::add_new_crossings(const Line& line, double slivers) {
+bool CellAtHand::add_new_crossings(const Line& line) {
   const int axis = parameter_axis(line);
   Interval from = trial_.vertex_out.range(axis), to = trial_.vertex_in.range(axis);
   if (!(from.hi < to.lo)) std::swap(from, to);
@@ -238,7 +249,7 @@ bool CellAtHand::add_new_crossings(const Line& line, double slivers) {
       // A curve enters a cell as often as it leaves it: a free check of all the above.
       if (ends % 2 != 0) return false;
     }
-    if (has_cut_ && !(score(slivers) < best_.score - 1e-9)) return false;
+    if (is_beaten()) return false;
   }
   return true;
 }
@@ -249,13 +260,9 @@ bool CellAtHand::cuts_well(const Line& line) {
   double clearance = HUGE_VAL;
   if (!cross_boundary(line, &clearance) || !divide_crossings(line, &clearance)) return false;
   clearance /= std::sqrt(square);
-  const double slivers =
-      kSliver * std::max(0.0, -5 - rough_logarithm(std::max(1e-12, clearance / extent_)));
-  if (!count_old_crossings(line)) return false;
-  // Counts only grow, so this bounds the score before anything is restricted.
-  if (has_cut_ && !(score(slivers) < best_.score - 1e-9)) return false;
-  if (!add_new_crossings(line, slivers)) return false;
-  trial_.score = score(slivers);
+  slivers_ = kSliver * std::max(0.0, -5 - rough_logarithm(std::max(1e-12, clearance / extent_)));
+  if (!count_old_crossings(line) || is_beaten() || !add_new_crossings(line)) return false;
+  if (!has_cut_) find_score();
   return true;
 }
 

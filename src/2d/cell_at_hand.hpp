@@ -59,24 +59,30 @@ class CellAtHand {
     std::vector<Presence> curves;
     int crossings = 0;
   };
+  struct InnerCrossing {
+    Place place;
+    std::array<int, 2> slots;  // of its curves
+  };
   static int branches_of(const Presence& presence);
   static bool is_simple(const Part& part);
   static double expected_cells(const Part& part);
   static int least_cells(const Part& part);
-  double score(double slivers) const;
+  void find_score();
+  bool is_beaten();
   bool cross_boundary(const Line& line, double* clearance);
   bool divide_crossings(const Line& line, double* clearance);
   bool count_old_crossings(const Line& line);
-  bool add_new_crossings(const Line& line, double slivers);
+  bool add_new_crossings(const Line& line);
   bool cuts_well(const Line& line);
 
   Partition& partition_;
   const OpenCell* cell_ = nullptr;
   Part whole_;
   std::array<Part, 2> parts_;
-  std::vector<int> slot_;         // of every curve, among those present
-  std::vector<Place> crossings_;  // of the cell
+  std::vector<int> slot_;  // of every curve, among those present; -1 for others
+  std::vector<InnerCrossing> crossings_;
   double extent_ = 0;
+  double slivers_ = 0;  // the penalty of the line that is tried
   std::vector<BoundaryPoint> points_;
   bool has_points_ = false;
   std::vector<char> sides_;  // of the vertices

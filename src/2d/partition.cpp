@@ -124,6 +124,7 @@ void Partition::fill(OpenCell* cell) {
 std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
                                                const Interval& parameter) {
   const OpenCell::Edge& e = cell.edges[edge];
+  if (cell.begin_of(edge) == e.end) return 0;
   const Line& line = lines[e.line];
   const bool ascending = parameter_grows(line, e.positive);
   int before = 0;

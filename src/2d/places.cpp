@@ -21,14 +21,6 @@ bool Place::finite() const {
          std::isfinite(box.hi[1]);
 }
 
-LineValue value_at(const Line& line, const Place& place) {
-  const double x = line.normal[0] * place.center[0], y = line.normal[1] * place.center[1];
-  const double reach =
-      std::fabs(line.normal[0]) * place.half[0] + std::fabs(line.normal[1]) * place.half[1];
-  const double sum = std::fabs(x) + std::fabs(y) + std::fabs(line.offset);
-  return {x + y + line.offset, reach * (1 + 0x1p-50) + 0x1p-51 * sum + 0x1p-1000};
-}
-
 std::optional<Sign> side(const Line& line, const Place& place, Kernel& kernel) {
   const LineValue at = value_at(line, place);
   if (!line.rational && std::fabs(at.value) > at.error) {

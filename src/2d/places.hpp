@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "common/interval.hpp"
@@ -31,7 +32,13 @@ struct LineValue {
   double value;
   double error;
 };
-LineValue value_at(const Line& line, const Place& place);
+inline LineValue value_at(const Line& line, const Place& place) {
+  const double x = line.normal[0] * place.center[0], y = line.normal[1] * place.center[1];
+  const double reach =
+      std::fabs(line.normal[0]) * place.half[0] + std::fabs(line.normal[1]) * place.half[1];
+  const double sum = std::fabs(x) + std::fabs(y) + std::fabs(line.offset);
+  return {x + y + line.offset, reach * (1 + 0x1p-50) + 0x1p-51 * sum + 0x1p-1000};
+}
 
 /// normal . x + offset, approximately.
 inline double height(const Line& line, const Point<2>& at) {
