@@ -200,6 +200,7 @@ struct Encasement {
 
 struct EncaseOptions {
   bool relaxed = false;  ///< accept relaxed cells wherever they are simple
+  bool fast = false;     ///< try fewer splitting lines: less time, more cells
   int max_cells = 100000;
   double max_seconds = 60;      ///< CPU seconds of the calling thread
   int max_bits = 848;           ///< precision cap of the MPFR rung

@@ -89,7 +89,7 @@ void Encaser::split_cells() {
   find_saddles();
   partition.fill(&first_cell_);
   CellAtHand at_hand(partition);
-  SplittingLines lines(at_hand);
+  SplittingLines lines(at_hand, options_.fast);
   std::vector<OpenCell> stack;
   stack.push_back(std::move(first_cell_));
   const double features = static_cast<double>(partition.crossings.size() + 1);

@@ -16,6 +16,7 @@ constexpr int kCurvePairs = 3;       // of neighbours on the boundary, of differ
 constexpr int kApproachedPairs = 5;  // of boundary points
 constexpr int kApproachSteps = 2;
 constexpr int kProjections = 2;  // onto the curve, in each
+constexpr double kGood = 0.5;    // a fast choice is content with a cut better by this than no cut
 constexpr double kPoor = 0;      // a cut worse by this than no cut calls for closest approach
 
 double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
@@ -65,6 +66,14 @@ void SplittingLines::keep_closest(std::size_t count) {
   pairs_.resize(count);
 }
 
+SplittingLines::SplittingLines(CellAtHand& cell, bool fast)
+    : cell_(cell), partition_(cell.partition()), enough_(fast ? kEnoughWhenFast : kEnough) {}
+
+bool SplittingLines::is_good_enough() const {
+  return cell_.is_finished() ||
+         (cell_.has_cut() && cell_.cut().score < cell_.expected_cells() - enough_);
+}
+
 void SplittingLines::propose_between_crossings() {
   const auto& crossings = cell_.cell().crossings;
   const int n = static_cast<int>(crossings.size());
@@ -86,14 +95,17 @@ void SplittingLines::propose_between_crossings() {
         best = i;
     const double at = 0.5 * (projections_[best] + projections_[best + 1]);
     cell_.propose(line_through({at * d[0], at * d[1]}, d));
+    if (is_good_enough()) return;
   }
   if (n > kMaxBisected) return;
   pairs_.clear();
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) pairs_.push_back({i, j, square_distance(point(i), point(j))});
   keep_closest(kBisectedPairs);
-  for (const Pair& p : pairs_)
+  for (const Pair& p : pairs_) {
     cell_.propose(line_through(halfway(point(p.a), point(p.b)), minus(point(p.b), point(p.a))));
+    if (is_good_enough()) return;
+  }
 }
 
 void SplittingLines::propose_through_saddles(int curve) {
@@ -102,7 +114,7 @@ void SplittingLines::propose_through_saddles(int curve) {
     const Saddle& saddle = partition_.saddles[k];
     if (saddle.curve != curve) continue;
     cell_.propose(line_through(saddle.at, saddle.normal));
-    if (--left == 0) return;
+    if (--left == 0 || is_good_enough()) return;
   }
 }
 
@@ -113,6 +125,7 @@ void SplittingLines::propose_between_branches() {
     if (presence.ends < 4) continue;
     const int c = presence.curve;
     propose_through_saddles(c);
+    if (is_good_enough()) return;
     pairs_.clear();
     for (int i = 0; i < n; ++i) {
       if (points[i].curve != c) continue;
@@ -123,7 +136,10 @@ void SplittingLines::propose_between_branches() {
           pairs_.push_back({i, j, square_distance(points[i].at, points[j].at)});
     }
     keep_closest(kBranchPairs);
-    for (const Pair& p : pairs_) cell_.propose(between(points[p.a], points[p.b]));
+    for (const Pair& p : pairs_) {
+      cell_.propose(between(points[p.a], points[p.b]));
+      if (is_good_enough()) return;
+    }
     // Where a line has cut off the tip of a bend, the branches that leave the tip on both sides are
     // neighbours of different parity, and told apart by the bisector of their ends.
     Pair closest{-1, -1, HUGE_VAL};
@@ -151,7 +167,10 @@ void SplittingLines::propose_between_curves() {
       pairs_.push_back({i, j, square_distance(points[i].at, points[j].at)});
   }
   keep_closest(kCurvePairs);
-  for (const Pair& p : pairs_) cell_.propose(between(points[p.a], points[p.b]));
+  for (const Pair& p : pairs_) {
+    cell_.propose(between(points[p.a], points[p.b]));
+    if (is_good_enough()) return;
+  }
 }
 
 /// Moves two points along their curves towards each other (thesis 6.1): tangential steps that
@@ -207,7 +226,7 @@ void SplittingLines::propose_closest_approach() {
   for (const Pair& pair : pairs_) {
     BoundaryPoint a = points[pair.a], b = points[pair.b];
     if (approach(&a, &b)) cell_.propose(between(a, b));
-    if (cell_.is_finished()) return;
+    if (is_good_enough()) return;
   }
 }
 
@@ -277,9 +296,9 @@ bool SplittingLines::find_best() {
     if (!cell_.has_cut()) propose_bisector();
     if (cell_.has_cut()) return true;
   }
-  if (!cell_.is_finished()) propose_between_crossings();
-  if (!cell_.is_finished()) propose_between_branches();
-  if (!cell_.is_finished()) propose_between_curves();
+  propose_between_crossings();
+  if (!is_good_enough()) propose_between_branches();
+  if (!is_good_enough()) propose_between_curves();
   if (!cell_.has_cut() || cell_.cut().score > cell_.expected_cells() + kPoor)
     propose_closest_approach();
   if (!cell_.has_cut()) propose_bisector();

@@ -11,7 +11,8 @@ namespace encase {
 /// best. Each member tells whether there is a cut.
 class SplittingLines {
  public:
-  explicit SplittingLines(CellAtHand& cell) : cell_(cell), partition_(cell.partition()) {}
+  /// `fast`: content with a line that is not bad instead of looking for one that is good.
+  SplittingLines(CellAtHand& cell, bool fast);
 
   /// The line to split the cell by, chosen by how simple it leaves the parts (docs/encasement.md).
   bool find_best();
@@ -29,6 +30,7 @@ class SplittingLines {
     double gap;  ///< squared
   };
   void keep_closest(std::size_t count);
+  bool is_good_enough() const;
   void propose_between_crossings();
   void propose_through_saddles(int curve);
   void propose_between_branches();
@@ -41,6 +43,7 @@ class SplittingLines {
 
   CellAtHand& cell_;
   Partition& partition_;
+  const double enough_;  // a cut that saves so many cells is taken
   std::vector<Pair> pairs_;
   std::vector<double> projections_;
 };
