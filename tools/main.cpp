@@ -36,6 +36,7 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
   c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");
   c->add_flag("--history", r.history, "with -o: the splitting as a .pvd with time steps");
   c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
+  c->add_flag("--fast", r.options.fast, "try fewer splitting lines: less time, more cells");
   c->add_flag("--relaxed", r.options.relaxed, "accept cells with two branches that do not cross");
   c->add_option("--perturb", r.options.perturbation,
                 "perturb every coefficient c by up to DELTA (1 + |c|)")

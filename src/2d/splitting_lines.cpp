@@ -16,8 +16,10 @@ constexpr int kCurvePairs = 3;       // of neighbours on the boundary, of differ
 constexpr int kApproachedPairs = 5;  // of boundary points
 constexpr int kApproachSteps = 2;
 constexpr int kProjections = 2;  // onto the curve, in each
-constexpr double kGood = 0.5;    // a fast choice is content with a cut better by this than no cut
-constexpr double kPoor = 0;      // a cut worse by this than no cut calls for closest approach
+// A cut that leaves so many expected cells less than no cut is good enough.
+constexpr double kEnough = 1.6;
+constexpr double kEnoughWhenFast = -0.5;
+constexpr double kPoor = 0;  // a cut worse by this than no cut calls for closest approach
 
 double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
 Point<2> minus(const Point<2>& a, const Point<2>& b) { return {a[0] - b[0], a[1] - b[1]}; }
