@@ -11,14 +11,12 @@ constexpr double kMiddle = 0.35;     // where the middle of the projections begi
 constexpr int kMaxBisected = 6;      // crossings up to which pairs of them are bisected
 constexpr int kBisectedPairs = 3;    // of crossings
 constexpr int kSaddles = 4;          // of a curve
-constexpr int kBranchPairs = 4;      // of boundary points of a curve, on different branches
-constexpr int kCurvePairs = 3;       // of neighbours on the boundary, of different curves
+constexpr int kBranchPairs = 6;      // of boundary points of a curve, on different branches
+constexpr int kCurvePairs = 4;       // of neighbours on the boundary, of different curves
 constexpr int kApproachedPairs = 5;  // of boundary points
 constexpr int kApproachSteps = 2;
-constexpr int kProjections = 2;  // onto the curve, in each
-// A cut that leaves so many expected cells less than no cut is good enough.
-constexpr double kEnough = 1.6;
-constexpr double kEnoughWhenFast = -0.5;
+constexpr int kProjections = 2;           // onto the curve, in each
+constexpr double kEnoughWhenFast = -0.5;  // expected cells that a cut has to save
 constexpr double kPoor = 0;  // a cut worse by this than no cut calls for closest approach
 
 double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
@@ -69,7 +67,7 @@ void SplittingLines::keep_closest(std::size_t count) {
 }
 
 SplittingLines::SplittingLines(CellAtHand& cell, bool fast)
-    : cell_(cell), partition_(cell.partition()), enough_(fast ? kEnoughWhenFast : kEnough) {}
+    : cell_(cell), partition_(cell.partition()), enough_(fast ? kEnoughWhenFast : HUGE_VAL) {}
 
 bool SplittingLines::is_good_enough() const {
   return cell_.is_finished() ||

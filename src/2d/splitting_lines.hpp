@@ -11,7 +11,7 @@ namespace encase {
 /// best. Each member tells whether there is a cut.
 class SplittingLines {
  public:
-  /// `fast`: content with a line that is not bad instead of looking for one that is good.
+  /// `fast`: content with the first line that is not bad instead of looking for the best.
   SplittingLines(CellAtHand& cell, bool fast);
 
   /// The line to split the cell by, chosen by how simple it leaves the parts (docs/encasement.md).
@@ -43,7 +43,7 @@ class SplittingLines {
 
   CellAtHand& cell_;
   Partition& partition_;
-  const double enough_;  // a cut that saves so many cells is taken
+  const double enough_;  // a cut that saves so many expected cells is taken
   std::vector<Pair> pairs_;
   std::vector<double> projections_;
 };
