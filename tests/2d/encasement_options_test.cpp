@@ -145,6 +145,17 @@ TEST(EncaseOptions, StrictRunRelaxesAfterTheStatedSplits) {
   EXPECT_GT(count(e, CellState::Relaxed), 0);
 }
 
+TEST(EncaseOptions, FastTriesFewerLines) {
+  const auto curves = random_pair(8, 1);
+  EncaseOptions options;
+  const Encasement best = encase(curves, square(), options).value();
+  options.fast = true;
+  const Encasement fast = encase(curves, square(), options).value();
+  expect_certified(fast);
+  EXPECT_LT(fast.statistics.candidate_lines, 0.6 * best.statistics.candidate_lines);
+  EXPECT_LT(fast.cells.size(), 1.5 * best.cells.size());
+}
+
 TEST(EncaseOptions, PerturbationIsDeterminedByTheSeed) {
   const auto curves = encased::curves({"y - x^2", "y"});
   EncaseOptions options;
