@@ -136,7 +136,7 @@ void Encaser::use_region(const Region& region) {
   const Box<2> root = subdivision_root(bounds_);
   tiled_.clear();
   for (const FilteredPolynomial<2>& f : polynomials_) tiled_.emplace_back(f, root, kernel_);
-  partition_ = std::make_unique<Partition>(polynomials_, kernel_);
+  partition_ = std::make_unique<Partition>(polynomials_, tiled_, kernel_);
 }
 
 bool Encaser::open_region() {

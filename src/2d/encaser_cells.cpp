@@ -6,6 +6,7 @@
 #include "2d/loop_certificates.hpp"
 #include "2d/saddles.hpp"
 #include "2d/splitting_lines.hpp"
+#include "common/segments.hpp"
 
 namespace encase {
 

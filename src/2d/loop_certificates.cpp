@@ -69,7 +69,7 @@ std::optional<LoopCertificate> certify_no_loop(CellAtHand& at_hand, int critical
       const Point<2> to{target.at[0] + beyond * (target.at[0] - from[0]),
                         target.at[1] + beyond * (target.at[1] - from[1])};
       if (side(line, to, partition.kernel()) == *inside) continue;
-      if (no_root_on_segment(f, from, to, partition.kernel()))
+      if (no_root_on_segment(partition.tiles()[region.curve], from, to, partition.kernel()))
         return LoopCertificate{critical_region, from, to};
       break;
     }

@@ -12,8 +12,8 @@ constexpr int kMaxRefinements = 80;    // of a root interval before a line is gi
 
 /// Narrows a root's interval until it is disjoint from a vertex's enclosure; false if the curve may
 /// pass through the vertex.
-bool clear_of(const FilteredPolynomial<2>& f, const Line& line, const Interval& vertex,
-              RootInterval* root, Kernel& kernel) {
+bool clear_of(TiledPolynomial& f, const Line& line, const Interval& vertex, LineRoot* root,
+              Kernel& kernel) {
   if (root->hi < vertex.lo || root->lo > vertex.hi) return true;
   // Points a little off the enclosure leave the intervals open towards it.
   const double margin = 4 * vertex.width() + 0x1p-50 * std::fabs(vertex.hi) + 0x1p-1000;
@@ -24,23 +24,24 @@ bool clear_of(const FilteredPolynomial<2>& f, const Line& line, const Interval& 
 
 }  // namespace
 
-Partition::Partition(const std::vector<FilteredPolynomial<2>>& curves, Kernel& kernel)
-    : curves_(curves), kernel_(kernel) {}
+Partition::Partition(const std::vector<FilteredPolynomial<2>>& curves,
+                     std::vector<TiledPolynomial>& tiles, Kernel& kernel)
+    : curves_(curves), tiles_(tiles), kernel_(kernel) {}
 
 bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
   // Refine neighbours until all intervals are disjoint.
   for (int round = 0; round < kMaxRefinements; ++round) {
     std::sort(roots->begin(), roots->end(), [](const Cut::Root& a, const Cut::Root& b) {
-      return a.interval.lo != b.interval.lo ? a.interval.lo < b.interval.lo : a.curve < b.curve;
+      return a.root.lo != b.root.lo ? a.root.lo < b.root.lo : a.curve < b.curve;
     });
     bool disjoint = true;
     for (std::size_t i = 0; i + 1 < roots->size(); ++i) {
       Cut::Root &a = (*roots)[i], &b = (*roots)[i + 1];
-      if (a.interval.hi < b.interval.lo) continue;
-      if (a.interval.hi == b.interval.lo && a.curve == b.curve) continue;
+      if (a.root.hi < b.root.lo) continue;
+      if (a.root.hi == b.root.lo && a.curve == b.curve) continue;
       disjoint = false;
       for (Cut::Root* r : {&a, &b})
-        if (!refine_on_line(curves_[r->curve], line, &r->interval, kernel_)) return false;
+        if (!refine_on_line(tiles_[r->curve], line, &r->root, kernel_)) return false;
     }
     if (disjoint) return true;
   }
@@ -49,10 +50,10 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
 
 bool Partition::isolate_between(int curve, const Line& line, const Interval& from,
                                 const Interval& to, int max_nodes, std::vector<Cut::Root>* roots) {
-  const FilteredPolynomial<2>& f = curves_[curve];
-  const auto found = isolate_on_line(f, line, from.lo, to.hi, max_nodes, kernel_);
-  if (!found) return false;
-  for (RootInterval root : *found) {
+  TiledPolynomial& f = tiles_[curve];
+  found_.clear();
+  if (!isolate_on_line(f, line, from.lo, to.hi, max_nodes, kernel_, &found_)) return false;
+  for (LineRoot& root : found_) {
     // The vertices must be free of the curve: no root in their enclosures.
     if (!clear_of(f, line, from, &root, kernel_) || !clear_of(f, line, to, &root, kernel_) ||
         root.hi < from.hi || root.lo > to.lo)
@@ -60,6 +61,13 @@ bool Partition::isolate_between(int curve, const Line& line, const Interval& fro
     roots->push_back({curve, root});
   }
   return true;
+}
+
+void Partition::add_line_crossings(int line, const std::vector<Cut::Root>& roots) {
+  for (const auto& [curve, root] : roots) {
+    line_crossings.push_back({line, curve, root.lo, root.hi});
+    spots_.emplace_back().parameter = root.at;
+  }
 }
 
 std::optional<OpenCell> Partition::open(const std::vector<Line>& sides) {
@@ -86,10 +94,9 @@ std::optional<OpenCell> Partition::open(const std::vector<Line>& sides) {
         return std::nullopt;
     if (!order_on_line(side, &roots)) return std::nullopt;
     if (!ascending) std::reverse(roots.begin(), roots.end());
-    for (const Cut::Root& root : roots) {
-      cell.word.push_back(static_cast<int>(line_crossings.size()));
-      line_crossings.push_back({k, root.curve, root.interval.lo, root.interval.hi});
-    }
+    for (std::size_t i = 0; i < roots.size(); ++i)
+      cell.word.push_back(static_cast<int>(line_crossings.size() + i));
+    add_line_crossings(k, roots);
     cell.edges.push_back({k, false, static_cast<int>(cell.word.size())});
   }
   return cell;
@@ -130,8 +137,8 @@ std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
   int before = 0;
   for (int i = cell.begin_of(edge); i < e.end; ++i) {
     LineCrossing& c = line_crossings[cell.word[i]];
-    RootInterval root{c.lo, c.hi};
-    if (!clear_of(curves_[c.curve], line, parameter, &root, kernel_)) return std::nullopt;
+    LineRoot root{c.lo, c.hi, spots_[cell.word[i]].parameter};
+    if (!clear_of(tiles_[c.curve], line, parameter, &root, kernel_)) return std::nullopt;
     c.lo = root.lo;
     c.hi = root.hi;
     if ((root.hi < parameter.lo) == ascending) ++before;
@@ -140,45 +147,16 @@ std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
 }
 
 const Partition::Spot& Partition::spot(int line_crossing) {
-  if (spots_.size() < line_crossings.size()) spots_.resize(line_crossings.size());
   Spot& spot = spots_[line_crossing];
   if (spot.known) return spot;
   const LineCrossing& c = line_crossings[line_crossing];
-  const FilteredPolynomial<2>& f = curves_[c.curve];
   const Line& line = lines[c.line];
   const int p = parameter_axis(line), q = 1 - p;
-  const double slope = -line.normal[p] / line.normal[q];
-  const double start = -line.offset / line.normal[q];
-  // Newton's iteration on the line, kept within the root's interval.
-  double lo = c.lo, hi = c.hi, t = lo + 0.5 * (hi - lo);
-  FilteredPolynomial<2>::ValueAndGradient here{};
-  bool rises = false, rises_known = false;
-  for (int i = 0; i < 6; ++i) {
-    spot.at[p] = t;
-    spot.at[q] = slope * t + start;
-    here = f.value_and_gradient(spot.at);
-    const double rate = here.gradient[p] + slope * here.gradient[q];
-    const double step = -here.value / rate;
-    if (std::fabs(step) < 1e-4 * (c.hi - c.lo)) break;
-    if (!(t + step > lo && t + step < hi)) {
-      // The sign at an end tells the half.
-      if (!rises_known) {
-        Point<2> end;
-        end[p] = c.lo;
-        end[q] = slope * c.lo + start;
-        rises = f.approximate(end) < 0;
-        rises_known = true;
-      }
-      ((here.value < 0) == rises ? lo : hi) = t;
-      t = lo + 0.5 * (hi - lo);
-    } else {
-      t += step;
-    }
-  }
-  const double square = here.gradient[0] * here.gradient[0] + here.gradient[1] * here.gradient[1];
-  const double length = std::sqrt(square);
-  spot.normal =
-      length > 0 ? Point<2>{here.gradient[0] / length, here.gradient[1] / length} : Point<2>{0, 0};
+  spot.at[p] = spot.parameter;
+  spot.at[q] = -(line.normal[p] * spot.parameter + line.offset) / line.normal[q];
+  const Point<2> g = curves_[c.curve].gradient(spot.at);
+  const double length = std::sqrt(g[0] * g[0] + g[1] * g[1]);
+  if (length > 0) spot.normal = {g[0] / length, g[1] / length};
   spot.known = true;
   return spot;
 }
@@ -250,8 +228,7 @@ bool Partition::apply(const OpenCell& cell, Cut* cut, OpenCell* negative, OpenCe
   const int id = static_cast<int>(lines.size()),
             first_root = static_cast<int>(line_crossings.size());
   lines.push_back(cut->line);
-  for (const Cut::Root& root : cut->roots)
-    line_crossings.push_back({id, root.curve, root.interval.lo, root.interval.hi});
+  add_line_crossings(id, cut->roots);
   negative->positive = false;
   positive->positive = true;
   for (OpenCell* child : {negative, positive}) build_child(cell, *cut, first_root, child);

@@ -8,7 +8,9 @@
 
 #include "2d/places.hpp"
 #include "common/filtered_polynomial.hpp"
+#include "common/line_roots.hpp"
 #include "common/segments.hpp"
+#include "common/tile.hpp"
 #include "encase/encasement.hpp"
 
 /// The growing binary space partition: cells, and how a line cuts one in two.
@@ -66,7 +68,7 @@ struct Cut {
   Place vertex_out, vertex_in;
   struct Root {
     int curve;
-    RootInterval interval;
+    LineRoot root;
   };
   std::vector<Root> roots;           ///< of every curve alive on the chord
   std::vector<char> positive;        ///< for every crossing in the cell, on which side it lies
@@ -85,7 +87,9 @@ struct Saddle {
 
 class Partition {
  public:
-  Partition(const std::vector<FilteredPolynomial<2>>& curves, Kernel& kernel);
+  /// `tiles`: the curves' polynomials over a box that contains the polygon to be opened.
+  Partition(const std::vector<FilteredPolynomial<2>>& curves, std::vector<TiledPolynomial>& tiles,
+            Kernel& kernel);
 
   std::vector<Line> lines;
   std::vector<LineCrossing> line_crossings;
@@ -97,6 +101,7 @@ class Partition {
   std::int64_t lines_tried = 0;
 
   const std::vector<FilteredPolynomial<2>>& curves() const { return curves_; }
+  std::vector<TiledPolynomial>& tiles() { return tiles_; }
   Kernel& kernel() { return kernel_; }
   OpenCell::Memory* memory() { return &memory_; }
 
@@ -120,21 +125,25 @@ class Partition {
 
   /// About where a line crossing is, and the curve's unit gradient there; heuristics use them.
   struct Spot {
-    Point<2> at;
-    Point<2> normal;
+    double parameter = 0;  ///< on the line
+    Point<2> at{};
+    Point<2> normal{};
     bool known = false;
   };
   const Spot& spot(int line_crossing);
 
  private:
   bool order_on_line(const Line& line, std::vector<Cut::Root>* roots);
+  void add_line_crossings(int line, const std::vector<Cut::Root>& roots);
   void build_child(const OpenCell& cell, const Cut& cut, int first_root, OpenCell* child);
   std::optional<Sign> side_of(const CriticalRegion& region, const Line& line);
 
   const std::vector<FilteredPolynomial<2>>& curves_;
+  std::vector<TiledPolynomial>& tiles_;
   Kernel& kernel_;
   std::pmr::monotonic_buffer_resource memory_;  ///< of the cells
-  std::vector<Spot> spots_;
+  std::vector<LineRoot> found_;
+  std::vector<Spot> spots_;  ///< of every line crossing
 };
 
 /// Whether a line's parameter grows along an edge on it that runs counter-clockwise around a cell

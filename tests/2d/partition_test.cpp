@@ -60,7 +60,9 @@ TEST(Partition, DoesNotOpenWhereACurvePassesThroughACorner) {
   const Region square = make_region(-1, 1, -1, 1).value();
   std::vector<Line> sides;
   for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
-  Partition partition(curves, kernel);
+  std::vector<TiledPolynomial> tiles;
+  for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
+  Partition partition(curves, tiles, kernel);
   EXPECT_FALSE(partition.open(sides).has_value());
   // A slightly larger polygon moves the corners off the curve, and contains the square.
   const auto larger = enlarged(square, 1);
@@ -81,7 +83,9 @@ TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
   const Region square = make_region(-1, 1, -1, 1).value();
   std::vector<Line> sides;
   for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
-  Partition partition(curves, kernel);
+  std::vector<TiledPolynomial> tiles;
+  for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
+  Partition partition(curves, tiles, kernel);
   const auto cell = partition.open(sides);
   ASSERT_TRUE(cell.has_value());
   const auto line = [](double a, double b, double c) {
