@@ -11,7 +11,7 @@ namespace {
 
 /// What the search asks of a contraction: a checker that recomputes it on a somewhat different box
 /// has room, and radii are at most some times the residual.
-constexpr double kQuality = 0.7;
+constexpr double kQuality = 0.8;
 constexpr double kUp = 1 + 0x1p-40;
 constexpr int kUsualLevels = 16;  // of halvings, after which most simple crossings are told apart
 
@@ -247,13 +247,17 @@ RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
   RootIsolation<2> result;
   result.root_box = f.box();
   PlaneRoots roots(f, g, kernel);
-  const auto visit = [&](const PlaneSubdivision<2>::Node& node) {
+  const auto visit = [&](PlaneSubdivision<2>::Node& node) {
     const Patch &p = node.patch[0], &q = node.patch[1];
     if (p.sign() || q.sign()) return cover::kExcluded;
     const SystemVerdict verdict = test_system(p, q, kQuality);
     if (verdict.excluded) return cover::kExcluded;
     if (verdict.contraction)
       if (const auto k = roots.near(node, *verdict.contraction)) return *k;
+    for (int i = 0; i < 2; ++i) {
+      node.part.lo[i] = std::max(-1.0, verdict.zeros.lo[i]);
+      node.part.hi[i] = std::min(1.0, verdict.zeros.hi[i]);
+    }
     if (node.level < kUsualLevels) return wider_axis(node.box);
     // Across the axis along which they change more: curves that touch or share a tangent there.
     const auto v = variation(p), w = variation(q);

@@ -35,13 +35,22 @@ struct Extremes {
   double lo, hi;
 };
 
-/// What one pass over the nets of a preconditioned system gives: for both components the extremes
-/// of the values and of the partial derivatives across rows and across lanes.
+/// The extremes of a net's coefficients and its distance from the polynomial, as combinations need
+/// them.
+struct Measure {
+  double magnitude, radius;
+};
+
+/// A system's nets, combined with the rows of a matrix Y.
 struct Preconditioned {
-  Matrix<2> y;   ///< the inverse of the mean Jacobian, or its adjugate
-  bool regular;  ///< the inverse exists; else there are no slopes
-  std::array<Extremes, 2> value;
-  std::array<std::array<Extremes, 2>, 2> slope;
+  Matrix<2> y;                     ///< the inverse of the mean Jacobian, or its adjugate
+  bool regular;                    ///< the inverse exists
+  bool excluded;                   ///< one of the combinations keeps a sign
+  std::array<double, 2> rounding;  ///< of the combinations' coefficients
+  std::array<double, 2> radius;    ///< of the combinations, rounding included
+  // If regular and not excluded, the extremes
+  std::array<std::array<Extremes, 2>, 2> slope;  ///< of differences across rows and across lanes
+  std::array<Extremes, 2> rest;                  ///< of combination c less the coordinate c
 };
 
 }  // namespace encase
@@ -175,25 +184,44 @@ HWY_INLINE void mean_slopes(const Net& net, double* across_rows, double* across_
   *across_lanes = 0.5 / N * sum;
 }
 
-/// Combines the nets with the rows of a matrix.
+/// Combines the nets with the rows of the matrix.
 template <int N>
-HWY_INLINE void combine_nets(const Net& f, const Net& g, const Matrix<2>& y, bool slopes,
+HWY_INLINE void combine_nets(const Net& f, const Net& g, const Measure& of_f, const Measure& of_g,
                              Preconditioned* result) {
-  HWY_ALIGN double memory[8 * N + 8];
+  HWY_ALIGN double memory[2][8 * N + 8];
+  Row rows[2][N];
+  result->excluded = false;
   for (int c = 0; c < 2; ++c) {
-    const Row alpha = Row::all(y[c][0]), beta = Row::all(y[c][1]);
-    Row rows[N];
-    rows[0] = alpha * Row::load(f[0].data()) + beta * Row::load(g[0].data());
-    Extent extent(rows[0]);
+    const double a = result->y[c][0], b = result->y[c][1];
+    const Row alpha = Row::all(a), beta = Row::all(b);
+    rows[c][0] = alpha * Row::load(f[0].data()) + beta * Row::load(g[0].data());
+    Extent extent(rows[c][0]);
     for (int i = 1; i < N; ++i) {
-      rows[i] = alpha * Row::load(f[i].data()) + beta * Row::load(g[i].data());
-      extent.add(rows[i]);
+      rows[c][i] = alpha * Row::load(f[i].data()) + beta * Row::load(g[i].data());
+      extent.add(rows[c][i]);
     }
-    result->value[c] = extent.extremes();
-    if (!slopes) continue;
-    for (int i = 0; i < N; ++i) rows[i].store(memory + 8 * i);
-    rows[N - 1].store(memory + 8 * N);
-    extremes_of_differences<N>(rows, memory, &result->slope[c][0], &result->slope[c][1]);
+    // Two products and a sum round.
+    const double first = a < 0 ? -a : a, second = b < 0 ? -b : b;
+    result->rounding[c] =
+        3 * 0x1p-53 * (first * of_f.magnitude + second * of_g.magnitude) * (1 + 0x1p-40) +
+        0x1p-1000;
+    result->radius[c] =
+        (first * of_f.radius + second * of_g.radius + result->rounding[c]) * (1 + 0x1p-40);
+    const Extremes e = extent.extremes();
+    result->excluded = result->excluded || e.lo > result->radius[c] || e.hi < -result->radius[c];
+  }
+  if (result->excluded || !result->regular) return;
+  HWY_ALIGN double lanes[8];
+  constexpr double step = 2.0 / (N - 1);
+  for (int j = 0; j < 8; ++j) lanes[j] = (j < N ? j : N - 1) * step - 1;
+  const Row across = Row::load(lanes);
+  for (int c = 0; c < 2; ++c) {
+    for (int i = 0; i < N; ++i) rows[c][i].store(memory[c] + 8 * i);
+    rows[c][N - 1].store(memory[c] + 8 * N);
+    extremes_of_differences<N>(rows[c], memory[c], &result->slope[c][0], &result->slope[c][1]);
+    Extent rest(rows[c][0] - (c == 0 ? Row::all(-1) : across));
+    for (int i = 1; i < N; ++i) rest.add(rows[c][i] - (c == 0 ? Row::all(i * step - 1) : across));
+    result->rest[c] = rest.extremes();
   }
 }
 
@@ -314,7 +342,8 @@ void turn_net(int count, Net* net) {
   with_count(count, [&]<int N>() HWY_ATTR { transpose<N>(from, net); });
 }
 
-void precondition(const Net& f, const Net& g, int count, Preconditioned* result) {
+void precondition(const Net& f, const Net& g, int count, const Measure& of_f, const Measure& of_g,
+                  Preconditioned* result) {
   with_count(count, [&]<int N>() HWY_ATTR {
     Matrix<2> j;
     mean_slopes<N>(f, &j[0][0], &j[0][1]);
@@ -323,7 +352,7 @@ void precondition(const Net& f, const Net& g, int count, Preconditioned* result)
     result->regular = scale > -1e300 && scale < 1e300;
     const double s = result->regular ? scale : 1;
     result->y = {{{j[1][1] * s, -j[0][1] * s}, {-j[1][0] * s, j[0][0] * s}}};
-    combine_nets<N>(f, g, result->y, result->regular, result);
+    combine_nets<N>(f, g, of_f, of_g, result);
   });
 }
 
@@ -340,7 +369,8 @@ void first_derivatives(const Net& net, int count, Extremes* across_rows, Extreme
   });
 }
 
-void precondition_gradient(const Net& net, int count, Preconditioned* result) {
+void precondition_gradient(const Net& net, int count, const Measure& across_rows,
+                           const Measure& across_lanes, Preconditioned* result) {
   with_count(count, [&]<int N>() HWY_ATTR {
     HWY_ALIGN Net r, l;
     raised_gradient<N>(net, &r, &l);
@@ -349,7 +379,7 @@ void precondition_gradient(const Net& net, int count, Preconditioned* result) {
     mean_slopes<N>(l, &h[1][0], &h[1][1]);
     result->regular = false;
     result->y = {{{h[1][1], -h[0][1]}, {-h[1][0], h[0][0]}}};
-    combine_nets<N>(r, l, result->y, false, result);
+    combine_nets<N>(r, l, across_rows, across_lanes, result);
   });
 }
 
@@ -591,35 +621,38 @@ SystemVerdict test_system(const Patch& f, const Patch& g, double quality) {
     return test_system(f, turned, quality);
   }
   SystemVerdict verdict;
-  Preconditioned extremes;
-  HWY_DYNAMIC_DISPATCH(precondition)(f.b, g.b, f.count, &extremes);
-  const Matrix<2>& y = extremes.y;
-  const double n = f.count - 1;
-  std::array<double, 2> rounding;
+  Preconditioned system;
+  HWY_DYNAMIC_DISPATCH(precondition)
+  (f.b, g.b, f.count, {f.magnitude(), f.radius}, {g.magnitude(), g.radius}, &system);
+  verdict.excluded = system.excluded;
+  if (system.excluded || !system.regular) return verdict;
+  const Matrix<2>& y = system.y;
+  // A zero has p = s + rest = 0.
   for (int c = 0; c < 2; ++c) {
-    const double alpha = std::fabs(y[c][0]), beta = std::fabs(y[c][1]);
-    rounding[c] = 3 * kUnit * (alpha * f.magnitude() + beta * g.magnitude()) * kUp + kTiny;
-    const double radius = (alpha * f.radius + beta * g.radius + rounding[c]) * kUp;
-    if (sign_of_extremes(extremes.value[c], radius)) {
-      verdict.excluded = true;
-      return verdict;
-    }
+    const Extremes& rest = system.rest[c];
+    const double slack =
+        (system.radius[c] + 8 * kUnit * (2 + std::fabs(rest.lo) + std::fabs(rest.hi))) * kUp;
+    const int axis = c == 0 ? f.rows_axis : 1 - f.rows_axis;
+    verdict.zeros.lo[axis] = -rest.hi - slack;
+    verdict.zeros.hi[axis] = -rest.lo + slack;
+    if (verdict.zeros.lo[axis] > 1 || verdict.zeros.hi[axis] < -1) verdict.excluded = true;
   }
-  if (!extremes.regular) return verdict;
+  if (verdict.excluded) return verdict;
+  const double n = f.count - 1;
   Contraction<2> contraction;
   for (int c = 0; c < 2; ++c) {
     const double alpha = std::fabs(y[c][0]), beta = std::fabs(y[c][1]);
     for (int i = 0; i < 2; ++i) {  // across rows, across lanes
-      const Extremes& e = extremes.slope[c][i];
+      const Extremes& e = system.slope[c][i];
       const double center = (i == 0) == (c == 0) ? 1.0 : 0.0;
       const double lo = 0.5 * n * e.lo, hi = 0.5 * n * e.hi;
       const double deviation = std::max(std::fabs(lo - center), std::fabs(hi - center));
       const double radius = alpha * f.slope_radius[i] + beta * g.slope_radius[i];
       // Differences and products round; the deviation is rounded up.
-      const double bound =
-          (deviation + radius + n * rounding[c] + 4 * kUnit * (std::fabs(lo) + std::fabs(hi))) *
-              kUp +
-          kTiny;
+      const double bound = (deviation + radius + n * system.rounding[c] +
+                            4 * kUnit * (std::fabs(lo) + std::fabs(hi))) *
+                               kUp +
+                           kTiny;
       if (!(bound < 1e6)) return verdict;
       contraction.bound[c][i] = bound;
       contraction.preconditioner[c][i] = y[c][i];
@@ -644,19 +677,17 @@ namespace {
 /// One of the two combinations of the partial derivatives that the mean Hessian's adjugate suggests
 /// keeps a sign.
 bool gradient_excluded(const Patch& patch) {
-  Preconditioned extremes;
-  HWY_DYNAMIC_DISPATCH(precondition_gradient)(patch.b, patch.count, &extremes);
-  const Matrix<2>& y = extremes.y;
-  // Without the factor n / 2. Differences are at most 2 M; difference, weights and products round.
+  // Nets without the factor n / 2. Differences are at most 2 M; they, the weights and the products
+  // round.
   const double factor = 0.5 * (patch.count - 1);
   const double rounding = 8 * kUnit * 2 * patch.magnitude();
-  for (int c = 0; c < 2; ++c) {
-    double radius = kTiny;
-    for (int i = 0; i < 2; ++i)
-      radius += std::fabs(y[c][i]) * (patch.slope_radius[i] / factor + 2 * rounding) * kUp;
-    if (sign_of_extremes(extremes.value[c], radius * kUp)) return true;
-  }
-  return false;
+  std::array<Measure, 2> measure;
+  for (int i = 0; i < 2; ++i)
+    measure[i] = {2 * patch.magnitude(), (patch.slope_radius[i] / factor + rounding) * kUp + kTiny};
+  Preconditioned gradient;
+  HWY_DYNAMIC_DISPATCH(precondition_gradient)
+  (patch.b, patch.count, measure[0], measure[1], &gradient);
+  return gradient.excluded;
 }
 
 /// f keeps a sign and no point is a local maximum of |f|.

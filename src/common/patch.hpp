@@ -63,6 +63,8 @@ void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper)
 /// What the patches of two polynomials on one box, of equal counts, prove about their common zeros.
 struct SystemVerdict {
   bool excluded = false;  ///< there is none in the closed box
+  /// All of them lie here, in the coordinates of the box.
+  Box<2> zeros{{-1, -1}, {1, 1}};
   /// There is at most one, a simple one (see Contraction).
   std::optional<Contraction<2>> contraction;
 };

@@ -18,7 +18,8 @@ inline int wider_axis(const Box<2>& box) {
   return box.width(1) > box.width(0) ? cover::kSplitY : cover::kSplitX;
 }
 
-/// The subdivision of a box of the plane, with the patches of N polynomials on the boxes.
+/// The subdivision of a box of the plane, with the patches of N polynomials on the boxes. Of
+/// several polynomials the common zeros are sought: a box on which one keeps a sign is excluded.
 ///
 /// Depth first, so that what is at hand stays in the cache, but in bands: what is not settled at
 /// the end of one band of widths waits until everything else has come as far, so that a budget is
@@ -33,9 +34,13 @@ class PlaneSubdivision {
     /// The tiles that the patches come from. Their rectangles contain the box.
     std::array<const Tile*, N> tile{};
     std::array<int, N> expanded_at{};  ///< the level of the box that the patch was made for
-    int level = 0;                     ///< number of halvings
-    bool inside = false;               ///< known to lie in all half planes
+    /// The part, in the box's coordinates, outside of which nothing that is sought lies. A visitor
+    /// may set it; halves that do not meet it are settled as excluded.
+    Box<2> part;
+    int level = 0;        ///< number of halvings
+    bool inside = false;  ///< known to lie in all half planes
     bool has_patches = false;
+    bool excluded = false;
   };
 
   PlaneSubdivision(const std::array<TiledPolynomial*, N>& polynomials, const Box<2>& root,
@@ -57,6 +62,7 @@ class PlaneSubdivision {
   std::vector<int> run(Visit visit);
 
  private:
+  static constexpr Box<2> kWhole{{-1, -1}, {1, 1}};
   static constexpr int kWaiting = cover::kUnresolved - 1;
   static constexpr int kLevelsPerBand = 18;
 
@@ -136,7 +142,8 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visi
   int top = 0;
   stack_[0].box = box;
   stack_[0].level = level;
-  stack_[0].inside = stack_[0].has_patches = false;
+  stack_[0].inside = stack_[0].has_patches = stack_[0].excluded = false;
+  stack_[0].part = kWhole;
   int here = 0;
   while (top >= 0) {
     Node& node = stack_[top];
@@ -162,6 +169,7 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visi
       continue;
     }
     tokens_.push_back(cover::kSplitX - axis);
+    const Box<2> part = node.part;
     // The node becomes its upper half, the lower one goes on top of it.
     Node& second = node;
     Node& first = stack_[++top];
@@ -175,6 +183,14 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visi
     if (second.has_patches)
       for (int i = 0; i < N; ++i)
         halve(second.patch[i], axis, N == 1, &first.patch[i], &second.patch[i]);
+    first.excluded = part.lo[axis] > 0;
+    second.excluded = part.hi[axis] < 0;
+    first.part = second.part = part;
+    // After one halving across an axis the patches tell more than the part.
+    for (Node* child : {&first, &second}) {
+      child->part.lo[axis] = -1;
+      child->part.hi[axis] = 1;
+    }
   }
 }
 
@@ -194,6 +210,18 @@ void PlaneSubdivision<N>::settle(int token, const Node& node) {
 template <int N>
 template <class Visit>
 int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
+  if (node.excluded) return cover::kExcluded;
+  // Of several polynomials all must vanish. (A patch of proved sign has no coefficients any more.)
+  if (N > 1 && node.has_patches)
+    for (const Patch& patch : node.patch)
+      if (patch.sign()) return cover::kExcluded;
+  // A half that is free need not be asked about.
+  if (node.has_patches)
+    for (int axis = 0; axis < 2; ++axis)
+      if ((node.part.hi[axis] < 0 || node.part.lo[axis] > 0) &&
+          node.box.width(axis) > 0.3 * node.box.width(1 - axis))
+        return cover::kSplitX - axis;
+  node.part = kWhole;
   if (!node.inside && outside(node)) return cover::kOutside;
   if (!provide_patches(node)) return wider_axis(node.box);
   return visit(node);
