@@ -62,7 +62,8 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve,
   PlaneSubdivision<1> subdivision({&f}, result.root_box, half_planes, limits, kernel);
   result.tokens = subdivision.run(visit);
   result.boxes = static_cast<int>(result.tokens.size());
-  result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
+  if (subdivision.unresolved())
+    result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
 
   const std::vector<Box<2>> boxes = leaves(result.root_box, result.tokens, kRegion);
   const std::vector<int> component = connected_components(boxes);

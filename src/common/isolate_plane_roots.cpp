@@ -113,7 +113,10 @@ std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& aroun
     }
     expand(*tile, around, count_, &patches[i]);
   }
-  return test_system(patches[0], patches[1], kQuality).contraction;
+  SystemVerdict verdict;
+  test_system(patches[0], patches[1], kQuality, &verdict);
+  if (!verdict.contracts) return std::nullopt;
+  return verdict.contraction;
 }
 
 /// The box around one zero near x by Krawczyk's test within `around`, whose contraction is known:
@@ -247,13 +250,13 @@ RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
   RootIsolation<2> result;
   result.root_box = f.box();
   PlaneRoots roots(f, g, kernel);
+  SystemVerdict verdict;
   const auto visit = [&](PlaneSubdivision<2>::Node& node) {
     const Patch &p = node.patch[0], &q = node.patch[1];
-    if (p.sign() || q.sign()) return cover::kExcluded;
-    const SystemVerdict verdict = test_system(p, q, kQuality);
+    test_system(p, q, kQuality, &verdict);
     if (verdict.excluded) return cover::kExcluded;
-    if (verdict.contraction)
-      if (const auto k = roots.near(node, *verdict.contraction)) return *k;
+    if (verdict.contracts)
+      if (const auto k = roots.near(node, verdict.contraction)) return *k;
     for (int i = 0; i < 2; ++i) {
       node.part.lo[i] = std::max(-1.0, verdict.zeros.lo[i]);
       node.part.hi[i] = std::min(1.0, verdict.zeros.hi[i]);
@@ -269,7 +272,8 @@ RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
   result.tokens = subdivision.run(visit);
   result.boxes = static_cast<int>(result.tokens.size());
   result.roots = std::move(roots.roots);
-  result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
+  if (subdivision.unresolved())
+    result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
   return result;
 }
 

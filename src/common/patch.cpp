@@ -43,14 +43,16 @@ struct Measure {
 
 /// A system's nets, combined with the rows of a matrix Y.
 struct Preconditioned {
-  Matrix<2> y;                     ///< the inverse of the mean Jacobian, or its adjugate
-  bool regular;                    ///< the inverse exists
-  bool excluded;                   ///< one of the combinations keeps a sign
+  Matrix<2> y;    ///< the inverse of the mean Jacobian, or its adjugate
+  bool regular;   ///< the inverse exists
+  bool excluded;  ///< one of the combinations keeps a sign
+  bool linear;    ///< there are slopes: the combinations are not too far from the coordinates
   std::array<double, 2> rounding;  ///< of the combinations' coefficients
   std::array<double, 2> radius;    ///< of the combinations, rounding included
-  // If regular and not excluded, the extremes
-  std::array<std::array<Extremes, 2>, 2> slope;  ///< of differences across rows and across lanes
-  std::array<Extremes, 2> rest;                  ///< of combination c less the coordinate c
+  /// If regular and not excluded: the extremes of combination c less the coordinate c.
+  std::array<Extremes, 2> rest;
+  /// If linear: the extremes of the differences across rows and across lanes.
+  std::array<std::array<Extremes, 2>, 2> slope;
 };
 
 }  // namespace encase
@@ -216,12 +218,19 @@ HWY_INLINE void combine_nets(const Net& f, const Net& g, const Measure& of_f, co
   for (int j = 0; j < 8; ++j) lanes[j] = (j < N ? j : N - 1) * step - 1;
   const Row across = Row::load(lanes);
   for (int c = 0; c < 2; ++c) {
-    for (int i = 0; i < N; ++i) rows[c][i].store(memory[c] + 8 * i);
-    rows[c][N - 1].store(memory[c] + 8 * N);
-    extremes_of_differences<N>(rows[c], memory[c], &result->slope[c][0], &result->slope[c][1]);
     Extent rest(rows[c][0] - (c == 0 ? Row::all(-1) : across));
     for (int i = 1; i < N; ++i) rest.add(rows[c][i] - (c == 0 ? Row::all(i * step - 1) : across));
     result->rest[c] = rest.extremes();
+  }
+  // Slopes close to those of the coordinates would keep the rests small.
+  constexpr double kMost = 2.5;
+  result->linear = result->rest[0].hi - result->rest[0].lo < kMost &&
+                   result->rest[1].hi - result->rest[1].lo < kMost;
+  if (!result->linear) return;
+  for (int c = 0; c < 2; ++c) {
+    for (int i = 0; i < N; ++i) rows[c][i].store(memory[c] + 8 * i);
+    rows[c][N - 1].store(memory[c] + 8 * N);
+    extremes_of_differences<N>(rows[c], memory[c], &result->slope[c][0], &result->slope[c][1]);
   }
 }
 
@@ -602,74 +611,62 @@ namespace {
 
 /// A positive v with E v < quality v, if there is one: with it (quality I - E) v is a multiple of
 /// (1, 1).
-std::optional<std::array<double, 2>> weights_of(const Matrix<2>& e, double quality) {
+bool find_weights(const Matrix<2>& e, double quality, std::array<double, 2>* v) {
   const double a = quality - e[0][0], b = quality - e[1][1];
-  if (!(a > 0 && b > 0 && a * b > e[0][1] * e[1][0])) return std::nullopt;
+  if (!(a > 0 && b > 0 && a * b > e[0][1] * e[1][0])) return false;
   const double largest = std::max(b + e[0][1], a + e[1][0]);
-  const std::array<double, 2> v{(b + e[0][1]) / largest, (a + e[1][0]) / largest};
+  *v = {(b + e[0][1]) / largest, (a + e[1][0]) / largest};
   for (int k = 0; k < 2; ++k)
-    if (!((e[k][0] * v[0] + e[k][1] * v[1]) * kUp < quality * v[k])) return std::nullopt;
-  return v;
+    if (!((e[k][0] * (*v)[0] + e[k][1] * (*v)[1]) * kUp < quality * (*v)[k])) return false;
+  return true;
 }
 
 }  // namespace
 
-SystemVerdict test_system(const Patch& f, const Patch& g, double quality) {
+void test_system(const Patch& f, const Patch& g, double quality, SystemVerdict* verdict) {
   if (f.rows_axis != g.rows_axis) {
     Patch turned = g;
     turn(&turned);
-    return test_system(f, turned, quality);
+    return test_system(f, turned, quality, verdict);
   }
-  SystemVerdict verdict;
   Preconditioned system;
   HWY_DYNAMIC_DISPATCH(precondition)
   (f.b, g.b, f.count, {f.magnitude(), f.radius}, {g.magnitude(), g.radius}, &system);
-  verdict.excluded = system.excluded;
-  if (system.excluded || !system.regular) return verdict;
-  const Matrix<2>& y = system.y;
-  // A zero has p = s + rest = 0.
+  verdict->excluded = system.excluded;
+  verdict->contracts = false;
+  verdict->zeros = Box<2>{{-1, -1}, {1, 1}};
+  if (system.excluded || !system.regular) return;
+  // The coordinates that belong to rows and lanes, and to the combinations.
+  const std::array<int, 2> axis{f.rows_axis, 1 - f.rows_axis};
   for (int c = 0; c < 2; ++c) {
+    // A zero has s + rest = 0.
     const Extremes& rest = system.rest[c];
     const double slack =
         (system.radius[c] + 8 * kUnit * (2 + std::fabs(rest.lo) + std::fabs(rest.hi))) * kUp;
-    const int axis = c == 0 ? f.rows_axis : 1 - f.rows_axis;
-    verdict.zeros.lo[axis] = -rest.hi - slack;
-    verdict.zeros.hi[axis] = -rest.lo + slack;
-    if (verdict.zeros.lo[axis] > 1 || verdict.zeros.hi[axis] < -1) verdict.excluded = true;
+    verdict->zeros.lo[axis[c]] = -rest.hi - slack;
+    verdict->zeros.hi[axis[c]] = -rest.lo + slack;
+    if (-rest.hi - slack > 1 || -rest.lo + slack < -1) verdict->excluded = true;
   }
-  if (verdict.excluded) return verdict;
-  const double n = f.count - 1;
-  Contraction<2> contraction;
+  if (verdict->excluded || !system.linear) return;
+  Contraction<2>& contraction = verdict->contraction;
+  const double factor = 0.5 * (f.count - 1);
   for (int c = 0; c < 2; ++c) {
-    const double alpha = std::fabs(y[c][0]), beta = std::fabs(y[c][1]);
-    for (int i = 0; i < 2; ++i) {  // across rows, across lanes
-      const Extremes& e = system.slope[c][i];
-      const double center = (i == 0) == (c == 0) ? 1.0 : 0.0;
-      const double lo = 0.5 * n * e.lo, hi = 0.5 * n * e.hi;
-      const double deviation = std::max(std::fabs(lo - center), std::fabs(hi - center));
+    contraction.preconditioner[axis[c]] = system.y[c];
+    const double alpha = std::fabs(system.y[c][0]), beta = std::fabs(system.y[c][1]);
+    for (int i = 0; i < 2; ++i) {
+      const double lo = factor * system.slope[c][i].lo, hi = factor * system.slope[c][i].hi;
+      const double center = i == c ? 1.0 : 0.0;
+      const double deviation = std::max(hi - center, center - lo);
       const double radius = alpha * f.slope_radius[i] + beta * g.slope_radius[i];
       // Differences and products round; the deviation is rounded up.
-      const double bound = (deviation + radius + n * system.rounding[c] +
-                            4 * kUnit * (std::fabs(lo) + std::fabs(hi))) *
-                               kUp +
-                           kTiny;
-      if (!(bound < 1e6)) return verdict;
-      contraction.bound[c][i] = bound;
-      contraction.preconditioner[c][i] = y[c][i];
+      contraction.bound[axis[c]][axis[i]] =
+          (std::max(deviation, 0.0) + radius + 2 * factor * system.rounding[c] +
+           4 * kUnit * (std::fabs(lo) + std::fabs(hi) + 1)) *
+              kUp +
+          kTiny;
     }
   }
-  if (f.rows_axis == 1) {
-    // In the order x, y: the rows of Y F, and so of the preconditioner, change places with the
-    // axes.
-    std::swap(contraction.preconditioner[0], contraction.preconditioner[1]);
-    std::swap(contraction.bound[0], contraction.bound[1]);
-    for (auto& row : contraction.bound) std::swap(row[0], row[1]);
-  }
-  const auto weights = weights_of(contraction.bound, quality);
-  if (!weights) return verdict;
-  contraction.weights = *weights;
-  verdict.contraction = contraction;
-  return verdict;
+  verdict->contracts = find_weights(contraction.bound, quality, &contraction.weights);
 }
 
 namespace {

@@ -62,13 +62,14 @@ void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper)
 
 /// What the patches of two polynomials on one box, of equal counts, prove about their common zeros.
 struct SystemVerdict {
-  bool excluded = false;  ///< there is none in the closed box
-  /// All of them lie here, in the coordinates of the box.
-  Box<2> zeros{{-1, -1}, {1, 1}};
-  /// There is at most one, a simple one (see Contraction).
-  std::optional<Contraction<2>> contraction;
+  SystemVerdict() {}  // nothing is set: most of it is seldom needed
+
+  bool excluded;  ///< there is none in the closed box
+  Box<2> zeros;   ///< all of them lie here, in the coordinates of the box
+  bool contracts;
+  Contraction<2> contraction;  ///< if it contracts: there is at most one, a simple one
 };
-SystemVerdict test_system(const Patch& f, const Patch& g, double quality);
+void test_system(const Patch& f, const Patch& g, double quality, SystemVerdict* verdict);
 
 /// Makes the rows run along the other axis.
 void turn(Patch* patch);

@@ -61,6 +61,9 @@ class PlaneSubdivision {
   template <class Visit>
   std::vector<int> run(Visit visit);
 
+  /// Whether a box stayed unresolved.
+  bool unresolved() const { return unresolved_; }
+
  private:
   static constexpr Box<2> kWhole{{-1, -1}, {1, 1}};
   static constexpr int kWaiting = cover::kUnresolved - 1;
@@ -101,6 +104,7 @@ class PlaneSubdivision {
   int boxes_ = 0;    ///< visited; those that had to wait twice
   int deepest_ = 0;  ///< the level beyond which nothing is halved
   bool stopped_ = false;
+  bool unresolved_ = false;
 };
 
 template <int N>
@@ -125,6 +129,7 @@ std::vector<int> PlaneSubdivision<N>::run(Visit visit) {
       ++next;
       if (stopped_ || budget <= 0 || at.level >= deepest_) {
         tokens_.push_back(cover::kUnresolved);
+        unresolved_ = true;
         ++kernel_.decisions.undecided;
       } else {
         descend(at.box, at.level, budget, visit);
@@ -198,6 +203,7 @@ template <int N>
 void PlaneSubdivision<N>::settle(int token, const Node& node) {
   tokens_.push_back(token);
   if (token == cover::kUnresolved) {
+    unresolved_ = true;
     ++kernel_.decisions.undecided;
     return;
   }
