@@ -48,13 +48,15 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve,
   const double fine = result.root_box.largest_width() * 0x1p-6;
   constexpr int kRegion = 0;
   const auto visit = [&](const PlaneSubdivision<1>::Node& node) {
-    if (no_relevant_critical_point(node.patch[0])) return cover::kExcluded;
-    // Boxes well below the usual size lie where branches stay close together.
-    if (node.box.largest_width() <= 0x1p-3 * fine &&
+    const CriticalVerdict verdict = test_critical(node.patch[0]);
+    if (verdict.excluded) return cover::kExcluded;
+    // Boxes well below the usual size lie where branches stay close together: now and then more is
+    // tried there.
+    if (node.level % 4 == 0 && node.box.largest_width() <= 0x1p-3 * fine &&
         no_relevant_critical_point(f.polynomial(), node.box, kernel))
       return cover::kExcluded;
     // Across the axis along which f changes more, weighted by the width.
-    const auto change = variation(node.patch[0]);
+    const auto& change = verdict.variation;
     const int axis = change[0] * node.box.width(0) >= change[1] * node.box.width(1) ? 0 : 1;
     if (node.box.width(axis) <= fine && node.patch[0].sign()) return kRegion;
     return cover::kSplitX - axis;

@@ -70,6 +70,11 @@ struct Extent {
     lo = least(lo, row);
     hi = greatest(hi, row);
   }
+  /// Forgets all but the first lanes.
+  HWY_INLINE void keep_lanes(int count) {
+    lo = first_lanes(lo, Row::all(HUGE_VAL), count);
+    hi = first_lanes(hi, Row::all(-HUGE_VAL), count);
+  }
   HWY_INLINE Extremes extremes() const { return {least_lane(lo), greatest_lane(hi)}; }
 };
 
@@ -171,9 +176,7 @@ HWY_INLINE void extremes_of_differences(const Row* rows, const double* memory,
   *across_rows = d.extremes();
   Extent e(Row::load_unaligned(memory + 1) - rows[0]);
   for (int i = 1; i < N; ++i) e.add(Row::load_unaligned(memory + 8 * i + 1) - rows[i]);
-  // Lanes from N - 1 on have no neighbour.
-  e.lo = first_lanes(e.lo, Row::all(HUGE_VAL), N - 1);
-  e.hi = first_lanes(e.hi, Row::all(-HUGE_VAL), N - 1);
+  e.keep_lanes(N - 1);  // the others have no neighbour
   *across_lanes = e.extremes();
 }
 
@@ -234,46 +237,75 @@ HWY_INLINE void combine_nets(const Net& f, const Net& g, const Measure& of_f, co
   }
 }
 
-/// The nets of the first derivatives across rows and across lanes (without the factor degree / 2),
-/// both raised to the degree of the net.
+/// The extremes of the first differences across rows and across lanes; and, where neither keeps a
+/// sign, whether one of the two combinations of the derivatives does that the mean Hessian's
+/// adjugate suggests. `radius`: of the differences, across rows and lanes, rounding included.
 template <int N>
-HWY_INLINE void raised_gradient(const Net& net, Net* across_rows, Net* across_lanes) {
+HWY_INLINE bool combine_gradient(const Net& net, double magnitude, const double* radius,
+                                 Extremes* slope) {
   constexpr double n = N - 1;
-  HWY_ALIGN double memory[8 * N + 16];
-  Row rows[N];
-  for (int i = 0; i < N; ++i) rows[i] = Row::load(net[i].data());
-  rows[0].store((*across_rows)[0].data());
-  Row before = rows[1] - rows[0];
-  before.store((*across_rows)[0].data());
-  for (int i = 1; i < N - 1; ++i) {
-    const Row d = rows[i + 1] - rows[i];
-    (before * Row::all(i / n) + d * Row::all(1 - i / n)).store((*across_rows)[i].data());
-    before = d;
-  }
-  before.store((*across_rows)[N - 1].data());
-  // memory[8 + j] = the difference of lanes j + 1 and j; lane -1 and lane N - 1 have weight zero.
-  HWY_ALIGN double weights[8];
-  for (int j = 0; j < 8; ++j) weights[j] = std::min(j, N - 1) / n;
-  const Row w = Row::load(weights), rest = Row::all(1) - w;
+  // The rows between zeros, for neighbours of lanes.
+  HWY_ALIGN double memory[8 * (N + 2)];
+  Row b[N];
+  Row::all(0).store(memory);
   for (int i = 0; i < N; ++i) {
-    rows[i].store(memory);
-    memory[8] = memory[7];
-    const Row d = Row::load_unaligned(memory + 1) - rows[i];
-    d.store(memory + 8);
-    memory[7] = 0;
-    memory[8 + N - 1] = 0;
-    const Row shifted = Row::load_unaligned(memory + 7);
-    const Row raised = shifted * w + Row::load(memory + 8) * rest;
-    raised.store((*across_lanes)[i].data());
-    for (int j = N; j < 8; ++j) (*across_lanes)[i][j] = (*across_lanes)[i][N - 1];
+    b[i] = Row::load(net[i].data());
+    b[i].store(memory + 8 * (i + 1));
   }
-}
+  Row::all(0).store(memory + 8 * (N + 1));
+  Row next[N];
+  for (int i = 0; i < N; ++i) next[i] = Row::load_unaligned(memory + 8 * (i + 1) + 1);
+  Extent across_rows(b[1] - b[0]), across_lanes(next[0] - b[0]);
+  for (int i = 1; i + 1 < N; ++i) across_rows.add(b[i + 1] - b[i]);
+  for (int i = 1; i < N; ++i) across_lanes.add(next[i] - b[i]);
+  across_lanes.keep_lanes(N - 1);
+  slope[0] = across_rows.extremes();
+  slope[1] = across_lanes.extremes();
+  for (int k = 0; k < 2; ++k)
+    if (slope[k].lo > radius[k] || slope[k].hi < -radius[k]) return true;
 
-template <int N>
-HWY_INLINE Extremes extremes_of(const Net& net) {
-  Extent extent(Row::load(net[0].data()));
-  for (int i = 1; i < N; ++i) extent.add(Row::load(net[i].data()));
-  return extent.extremes();
+  // Means of second differences, about.
+  HWY_ALIGN double of_lanes[8];
+  Row total = b[0];
+  for (int i = 1; i < N; ++i) total = total + b[i];
+  total.store(of_lanes);
+  const double rows_twice =
+      sum_of_lanes(first_lanes((b[N - 1] - b[N - 2]) - (b[1] - b[0]), Row::all(0), N));
+  const double lanes_twice = (of_lanes[N - 1] - of_lanes[N - 2]) - (of_lanes[1] - of_lanes[0]);
+  const double mixed = (net[N - 1][N - 1] - net[N - 1][0]) - (net[0][N - 1] - net[0][0]);
+  const double y[2][2] = {{lanes_twice, -mixed}, {-mixed, rows_twice}};
+
+  // A derivative raised to the degree of the net: its coefficient k is made of the net's k - 1, k
+  // and k + 1 with the weights -k/n, 2k/n - 1 and 1 - k/n.
+  HWY_ALIGN double weight[2][8];
+  for (int j = 0; j < 8; ++j) {
+    weight[0][j] = j < N ? -j / n : -1;
+    weight[1][j] = j < N ? 1 - j / n : 0;
+  }
+  const Row before = Row::load(weight[0]), after = Row::load(weight[1]);
+  const Row here = Row::all(0) - (before + after);
+  Extent first(Row::all(HUGE_VAL), Row::all(-HUGE_VAL)), second = first;
+  for (int i = 0; i < N; ++i) {
+    const Row previous = Row::load_unaligned(memory + 8 * (i + 1) - 1);
+    const Row lanes = previous * before + b[i] * here + next[i] * after;
+    Row rows = b[i] * Row::all(2 * i / n - 1);
+    if (i > 0) rows = rows + b[i - 1] * Row::all(-i / n);
+    if (i < N - 1) rows = rows + b[i + 1] * Row::all(1 - i / n);
+    first.add(rows * Row::all(y[0][0]) + lanes * Row::all(y[0][1]));
+    second.add(rows * Row::all(y[1][0]) + lanes * Row::all(y[1][1]));
+  }
+  const Extent* extents[2] = {&first, &second};
+  for (int k = 0; k < 2; ++k) {
+    Extent extent = *extents[k];
+    extent.keep_lanes(N);
+    const Extremes e = extent.extremes();
+    const double alpha = y[k][0] < 0 ? -y[k][0] : y[k][0], beta = y[k][1] < 0 ? -y[k][1] : y[k][1];
+    // Weights, products and sums round; derivatives are at most 2 M.
+    const double rounding = 16 * 0x1p-53 * 2 * magnitude * (alpha + beta);
+    const double r = (alpha * radius[0] + beta * radius[1] + rounding) * (1 + 0x1p-40) + 0x1p-1000;
+    if (e.lo > r || e.hi < -r) return true;
+  }
+  return false;
 }
 
 /// The extremes of second differences: twice across rows, twice across lanes, mixed.
@@ -297,13 +329,11 @@ HWY_INLINE void second_differences(const Net& net, Extremes* result) {
     slope[i] = next - rows[i];
     twice_lanes.add((Row::load_unaligned(memory + 8 * i + 2) - next) - slope[i]);
   }
-  twice_lanes.lo = first_lanes(twice_lanes.lo, Row::all(HUGE_VAL), N - 2);
-  twice_lanes.hi = first_lanes(twice_lanes.hi, Row::all(-HUGE_VAL), N - 2);
+  twice_lanes.keep_lanes(N - 2);
   result[1] = twice_lanes.extremes();
   Extent mixed(slope[1] - slope[0]);
   for (int i = 1; i + 1 < N; ++i) mixed.add(slope[i + 1] - slope[i]);
-  mixed.lo = first_lanes(mixed.lo, Row::all(HUGE_VAL), N - 1);
-  mixed.hi = first_lanes(mixed.hi, Row::all(-HUGE_VAL), N - 1);
+  mixed.keep_lanes(N - 1);
   result[2] = mixed.extremes();
 }
 
@@ -378,18 +408,12 @@ void first_derivatives(const Net& net, int count, Extremes* across_rows, Extreme
   });
 }
 
-void precondition_gradient(const Net& net, int count, const Measure& across_rows,
-                           const Measure& across_lanes, Preconditioned* result) {
-  with_count(count, [&]<int N>() HWY_ATTR {
-    HWY_ALIGN Net r, l;
-    raised_gradient<N>(net, &r, &l);
-    Matrix<2> h;
-    mean_slopes<N>(r, &h[0][0], &h[0][1]);
-    mean_slopes<N>(l, &h[1][0], &h[1][1]);
-    result->regular = false;
-    result->y = {{{h[1][1], -h[0][1]}, {-h[1][0], h[0][0]}}};
-    combine_nets<N>(r, l, across_rows, across_lanes, result);
-  });
+bool test_gradient(const Net& net, int count, double magnitude, const double* radius,
+                   Extremes* slope) {
+  bool result = false;
+  with_count(count, [&]<int N>()
+                        HWY_ATTR { result = combine_gradient<N>(net, magnitude, radius, slope); });
+  return result;
 }
 
 void second_derivatives(const Net& net, int count, Extremes* result) {
@@ -408,7 +432,7 @@ HWY_EXPORT(halve_patch);
 HWY_EXPORT(turn_net);
 HWY_EXPORT(precondition);
 HWY_EXPORT(first_derivatives);
-HWY_EXPORT(precondition_gradient);
+HWY_EXPORT(test_gradient);
 HWY_EXPORT(second_derivatives);
 
 constexpr double kUnit = 0x1p-53;
@@ -671,22 +695,6 @@ void test_system(const Patch& f, const Patch& g, double quality, SystemVerdict* 
 
 namespace {
 
-/// One of the two combinations of the partial derivatives that the mean Hessian's adjugate suggests
-/// keeps a sign.
-bool gradient_excluded(const Patch& patch) {
-  // Nets without the factor n / 2. Differences are at most 2 M; they, the weights and the products
-  // round.
-  const double factor = 0.5 * (patch.count - 1);
-  const double rounding = 8 * kUnit * 2 * patch.magnitude();
-  std::array<Measure, 2> measure;
-  for (int i = 0; i < 2; ++i)
-    measure[i] = {2 * patch.magnitude(), (patch.slope_radius[i] / factor + rounding) * kUp + kTiny};
-  Preconditioned gradient;
-  HWY_DYNAMIC_DISPATCH(precondition_gradient)
-  (patch.b, patch.count, measure[0], measure[1], &gradient);
-  return gradient.excluded;
-}
-
 /// f keeps a sign and no point is a local maximum of |f|.
 bool no_extremum(const Patch& patch, Sign sign) {
   Extremes second[3];
@@ -707,18 +715,23 @@ bool no_extremum(const Patch& patch, Sign sign) {
 
 }  // namespace
 
-bool no_relevant_critical_point(const Patch& patch) {
-  Extremes slope[2];
-  HWY_DYNAMIC_DISPATCH(first_derivatives)(patch.b, patch.count, &slope[0], &slope[1]);
+CriticalVerdict test_critical(const Patch& patch) {
+  CriticalVerdict verdict;
+  // Differences, without the factor degree / 2; they round.
   const double factor = 0.5 * (patch.count - 1);
-  for (int i = 0; i < 2; ++i) {
-    const Extremes e =
-        widened(slope[i], factor, patch.slope_radius[i] + factor * 4 * kUnit * patch.magnitude());
-    if (sign_of_extremes(e, 0)) return true;
-  }
-  if (gradient_excluded(patch)) return true;
+  std::array<double, 2> radius;
+  for (int i = 0; i < 2; ++i)
+    radius[i] = (patch.slope_radius[i] / factor + 4 * kUnit * patch.magnitude()) * kUp + kTiny;
+  Extremes slope[2];
+  verdict.excluded = HWY_DYNAMIC_DISPATCH(test_gradient)(patch.b, patch.count, patch.magnitude(),
+                                                         radius.data(), slope);
+  if (verdict.excluded) return verdict;
+  for (int i = 0; i < 2; ++i)
+    verdict.variation[i == 0 ? patch.rows_axis : 1 - patch.rows_axis] =
+        std::max(-slope[i].lo, slope[i].hi);
   const auto sign = patch.sign();
-  return sign && no_extremum(patch, *sign);
+  verdict.excluded = sign && no_extremum(patch, *sign);
+  return verdict;
 }
 
 }  // namespace encase

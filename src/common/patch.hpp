@@ -77,7 +77,11 @@ void turn(Patch* patch);
 /// How much f changes along x and along y: the largest difference of neighbouring coefficients.
 std::array<double, 2> variation(const Patch& patch);
 
-/// As the function on nets in box_tests.hpp, with little effort.
-bool no_relevant_critical_point(const Patch& patch);
+/// What a patch proves about critical points.
+struct CriticalVerdict {
+  bool excluded = false;  ///< as no_relevant_critical_point (box_tests.hpp), with little effort
+  std::array<double, 2> variation{};  ///< as above; unless excluded
+};
+CriticalVerdict test_critical(const Patch& patch);
 
 }  // namespace encase
