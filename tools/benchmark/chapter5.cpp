@@ -89,7 +89,7 @@ LinePlot times_in_squares(const Request& request, const std::string& title, int 
 }
 
 LinePlot cgal_in_squares(Request request) {
-  constexpr int kHighestDegree = 9;
+  constexpr int kHighestDegree = 8;
   request.seeds.resize(1);
   return times_in_squares(
       request, "CGAL in squares around a crossing", std::min(kHighestDegree, request.cgal_degrees),

@@ -197,7 +197,7 @@ std::string to_csv(const LinePlot& plot) {
     for (const auto& [u, v] : plot.series[k].points) {
       auto& row = rows[u];
       row.resize(plot.series.size());
-      row[k] = fmt::format("{}", v);
+      row[k] = fmt::format("{:.6g}", v);
     }
   }
   for (const auto& [u, row] : rows) text += fmt::format("\n{},{}", u, fmt::join(row, ","));

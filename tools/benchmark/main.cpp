@@ -10,7 +10,6 @@
 #include <exception>
 #include <fstream>
 #include <functional>
-#include <numeric>
 #include <string>
 #include <thread>
 
@@ -114,16 +113,15 @@ encase::Status write_outputs(const Outputs& outputs, const std::vector<Table>& t
     if (auto status = encase::write_file(outputs.json, to_json(machine(), tables))) return status;
   if (outputs.markdown.empty()) return {};
   std::string text = machine() + "\n";
-  for (const Table& table : tables)
-    if (table.printed) text += "\n" + to_markdown(table);
+  for (const bool beside_cgal : {true, false})  // what readers look for first
+    for (const Table& table : tables)
+      if (table.printed && (table.name == "cgal") == beside_cgal) text += "\n" + to_markdown(table);
   return encase::write_file(outputs.markdown, text);
 }
 
-/// Degrees 2 to 20, unless others were asked for.
+/// With degrees of its own, unless others were asked for.
 Request chapter5_request(Request request, bool default_degrees) {
-  if (!default_degrees) return request;
-  request.degrees.resize(19);
-  std::iota(request.degrees.begin(), request.degrees.end(), 2);
+  if (default_degrees) request.degrees = {2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20};
   return request;
 }
 

@@ -12,10 +12,10 @@
 namespace encase::benchmark {
 namespace {
 
-/// Three significant digits, without an exponent where that is legible.
+/// Three significant digits, without an exponent where that is legible; whole numbers as such.
 std::string rounded(double x) {
   const double size = std::fabs(x);
-  if (size == 0) return "0";
+  if (size < 1e7 && x == std::floor(x)) return fmt::format("{:.0f}", x);
   if (size >= 1e7 || size < 1e-4) return fmt::format("{:.2e}", x);
   const int digits = 2 - static_cast<int>(std::floor(std::log10(size)));
   return fmt::format("{:.{}f}", x, std::max(0, digits));
