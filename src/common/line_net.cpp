@@ -235,6 +235,7 @@ HWY_INLINE double guess_sign_change(const LineNet& net, const BernsteinTables& t
 void find_sign_change(const LineNet& net, const BernsteinTables& tables, bool rises, double largest,
                       const NetErrors& errors, SignChange* change) {
   constexpr double kHalfWidth = 0x1p-9;
+  constexpr double kLeastHalfWidth = 0x1p-40;  // far above the rounding of its ends
   const double rounding = 1.01 * kJetRoundings * 0x1p-53 * largest;
   const double value_error = errors.value + rounding;
   const double slope_error = errors.slope + 2 * tables.degree * rounding;
@@ -262,7 +263,7 @@ void find_sign_change(const LineNet& net, const BernsteinTables& tables, bool ri
       if (2.02 * value <= kHalfWidth * slope && kHalfWidth * most_bend <= 0.49 * slope)
         return found(kHalfWidth);
       const double least = 2.02 * value / slope, most = 0.49 * slope / most_bend;
-      if (least <= most && (least <= kHalfWidth || value < 2 * value_error || step >= 3))
+      if (least <= most && most >= kLeastHalfWidth && (least <= kHalfWidth || value < 2 * value_error || step >= 3))
         return found(std::min(most, std::max(least, kHalfWidth)));
       if (4 * value_error / slope > most) {
         change->verdict = SignChange::Verdict::TooMuchError;

@@ -9,7 +9,7 @@
 #include "common/line_net.hpp"
 #include "common/segments.hpp"
 
-// The names and bounds are those of docs/error-bounds.md, section 7.
+// The bounds are derived in docs/error-bounds.md, "Roots on a line from tiles".
 namespace encase {
 namespace {
 
