@@ -43,16 +43,17 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve,
                                  const SubdivisionLimits& limits, Kernel& kernel) {
   CriticalRegions result;
   result.root_box = f.box();
-  // Small regions are cut by fewer lines but reached by more rays, and most saddles drop out on the
+  // Small regions are cut by fewer lines but reached by more rays, and some saddles drop out on the
   // way; a region is not split below this width once f has a sign on it.
-  const double fine = result.root_box.largest_width() * 0x1p-6;
+  const double fine = result.root_box.largest_width() * 0x1p-4;
+  // Boxes well below the usual size lie where branches stay close together: now and then more is
+  // tried there.
+  const double small = result.root_box.largest_width() * 0x1p-10;
   constexpr int kRegion = 0;
   const auto visit = [&](const PlaneSubdivision<1>::Node& node) {
     const CriticalVerdict verdict = test_critical(node.patch[0]);
     if (verdict.excluded) return cover::kExcluded;
-    // Boxes well below the usual size lie where branches stay close together: now and then more is
-    // tried there.
-    if (node.level % 4 == 0 && node.box.largest_width() <= 0x1p-3 * fine &&
+    if (node.level % 4 == 0 && node.box.largest_width() <= small &&
         no_relevant_critical_point(f.polynomial(), node.box, kernel))
       return cover::kExcluded;
     // Across the axis along which f changes more, weighted by the width.

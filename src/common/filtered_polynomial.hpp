@@ -76,8 +76,8 @@ class FilteredPolynomial {
   /// nearest to the centre.
   void expand(const Box<D>& box, int net_degree, int bits, Kernel& kernel, Bernstein<D>* net) const;
 
-  /// Taylor's coefficients in the coordinates [-1,1]^D of a box (as in `expand`), dense, degree() in
-  /// every variable, and the sum of their errors.
+  /// Taylor's coefficients in the coordinates [-1,1]^D of a box (as in `expand`), dense, degree()
+  /// in every variable, and the sum of their errors.
   struct Taylor {
     std::vector<double> coefficients;
     double error;

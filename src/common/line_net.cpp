@@ -263,7 +263,8 @@ void find_sign_change(const LineNet& net, const BernsteinTables& tables, bool ri
       if (2.02 * value <= kHalfWidth * slope && kHalfWidth * most_bend <= 0.49 * slope)
         return found(kHalfWidth);
       const double least = 2.02 * value / slope, most = 0.49 * slope / most_bend;
-      if (least <= most && most >= kLeastHalfWidth && (least <= kHalfWidth || value < 2 * value_error || step >= 3))
+      if (least <= most && most >= kLeastHalfWidth &&
+          (least <= kHalfWidth || value < 2 * value_error || step >= 3))
         return found(std::min(most, std::max(least, kHalfWidth)));
       if (4 * value_error / slope > most) {
         change->verdict = SignChange::Verdict::TooMuchError;
