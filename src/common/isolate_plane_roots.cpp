@@ -20,6 +20,11 @@ double ulp(double x) {
   return std::nextafter(x, HUGE_VAL) - x;
 }
 
+/// As narrow as doubles allow, some units in the last place.
+bool narrow(const Box<2>& box) {
+  return box.largest_width() <= 128 * ulp(std::max(std::fabs(box.hi[0]), std::fabs(box.hi[1])));
+}
+
 /// The common zeros of two polynomials that have been found, and how: from boxes of a subdivision.
 class PlaneRoots {
  public:
@@ -32,7 +37,7 @@ class PlaneRoots {
   std::vector<Box<2>> roots;
 
   /// The number of the root that a box can contain which holds at most one, if there is one near.
-  std::optional<int> near(const PlaneSubdivision<2>::Node& node, const Contraction<2>& contraction);
+  std::optional<int> near(const PlaneSubdivision<2>::Node& node, const SystemVerdict& verdict);
 
  private:
   using Tiles = std::array<const Tile*, 2>;
@@ -40,9 +45,17 @@ class PlaneRoots {
     Point<2> d;
     Matrix<2> jacobian;
   };
+  /// Where Newton's iteration came to, and the Jacobian at the point before.
+  struct Approximation {
+    Point<2> x, before;
+    Matrix<2> jacobian;
+  };
   std::optional<Step> newton_step(const Tiles& tiles, const Point<2>& x,
                                   const std::array<double, 2>* values) const;
-  std::optional<Point<2>> newton(const Tiles& tiles, const Box<2>& leaf) const;
+  std::optional<Approximation> newton(const Tiles& tiles, const Box<2>& leaf,
+                                      const Box<2>& zeros) const;
+  std::optional<Box<2>> tight_box(const Tiles& tiles, const Box<2>& around,
+                                  const Approximation& a) const;
   std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
   std::optional<Box<2>> enclose(const Tiles& tiles, const Box<2>& around, const Contraction<2>& c,
                                 Point<2> x) const;
@@ -77,26 +90,99 @@ std::optional<PlaneRoots::Step> PlaneRoots::newton_step(const Tiles& tiles, cons
   return step;
 }
 
-/// A point near the leaf that Newton's iteration settles on.
-std::optional<Point<2>> PlaneRoots::newton(const Tiles& tiles, const Box<2>& leaf) const {
-  const double reach = 2 * leaf.largest_width();
-  const Point<2> start = leaf.center();
-  Point<2> x = start;
+/// Newton's iteration from the middle of the part of a leaf that can hold zeros.
+std::optional<PlaneRoots::Approximation> PlaneRoots::newton(const Tiles& tiles, const Box<2>& leaf,
+                                                            const Box<2>& zeros) const {
+  const double width = leaf.largest_width(), reach = 2 * width;
+  Approximation a;
+  const Point<2> center = leaf.center();
+  for (int i = 0; i < 2; ++i) {
+    const double middle = 0.5 * (std::max(-1.0, zeros.lo[i]) + std::min(1.0, zeros.hi[i]));
+    a.x[i] = center[i] + 0.5 * leaf.width(i) * middle;
+  }
+  const Point<2> start = a.x;
   double last = HUGE_VAL;
   for (int round = 0; round < 12; ++round) {
-    const auto step = newton_step(tiles, x, nullptr);
+    const auto step = newton_step(tiles, a.x, nullptr);
     if (!step) return std::nullopt;
+    a.before = a.x;
+    a.jacobian = step->jacobian;
     double size = 0;
     for (int i = 0; i < 2; ++i) {
-      x[i] -= step->d[i];
+      a.x[i] -= step->d[i];
       size = std::max(size, std::fabs(step->d[i]));
-      if (!(std::fabs(x[i] - start[i]) <= reach)) return std::nullopt;
+      if (!(std::fabs(a.x[i] - start[i]) <= reach)) return std::nullopt;
     }
-    // Quadratic convergence: the next step would be far below what doubles on a tile can tell.
-    if (size <= 1e-7 * leaf.largest_width() || (round > 2 && size >= 0.5 * last)) break;
+    // Quadratic convergence: what remains is the business of more precise values.
+    if (size <= 1e-5 * width || (round > 2 && size >= 0.5 * last)) break;
     last = size;
   }
-  return x;
+  return a;
+}
+
+/// A box some units in the last place wide around the zero near a.x, from one precise value there:
+/// with Y the inverse of the Jacobian J0 known at a point nearby, and |J - J0| bounded on
+/// X = a.x +- reach, every zero z in X has |z - (a.x - Y F(a.x))| <= E reach, E = |I - Y J|; if
+/// that is inside X there is one. (docs/error-bounds.md, section 5.)
+std::optional<Box<2>> PlaneRoots::tight_box(const Tiles& tiles, const Box<2>& around,
+                                            const Approximation& a) const {
+  const Matrix<2>& j = a.jacobian;
+  const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+  const Matrix<2> y{{{j[1][1] / determinant, -j[0][1] / determinant},
+                     {-j[1][0] / determinant, j[0][0] / determinant}}};
+  Point<2> d{0, 0}, error{0, 0}, reach;
+  for (int i = 0; i < 2; ++i) {
+    const double value = system_[i]->value(a.x);
+    const double bound = tiles[i]->value_error + 0x1p-52 * std::fabs(value);
+    for (int k = 0; k < 2; ++k) {
+      d[k] += y[k][i] * value;
+      error[k] += (std::fabs(y[k][i]) * bound + 0x1p-50 * std::fabs(y[k][i] * value)) * kUp;
+    }
+  }
+  double far = 0;  // of X from the point of the Jacobian, in the tiles' coordinates
+  for (int k = 0; k < 2; ++k) {
+    reach[k] = 2 * std::fabs(d[k]) + 4 * error[k] + 8 * ulp(a.x[k]);
+    // What is known of the tiles holds on their rectangles.
+    for (const Tile* tile : tiles)
+      if (!(std::fabs(a.x[k] - tile->center[k]) + reach[k] <= tile->half[k])) return std::nullopt;
+    const double half = std::min(tiles[0]->half[k], tiles[1]->half[k]);
+    far = std::max(far, (std::fabs(a.x[k] - a.before[k]) + reach[k]) / half * kUp);
+  }
+  // The change of the Jacobian, the rounding of its evaluation (Horner's rule twice) and of the
+  // point in the tile's coordinates, and what the tile is off.
+  std::array<double, 2> spread;
+  for (int i = 0; i < 2; ++i) {
+    const Tile& tile = *tiles[i];
+    spread[i] = (tile.bend * (far + 0x1p-48) + tile.slope_error +
+                 0x1p-52 * (4 * tile.degree + 8) * tile.slope) *
+                kUp;
+  }
+  Point<2> image;
+  for (int k = 0; k < 2; ++k) {
+    image[k] = error[k];
+    for (int m = 0; m < 2; ++m) {
+      double e = 0x1p-48 * (std::fabs(y[k][0] * j[0][m]) + std::fabs(y[k][1] * j[1][m]));
+      for (int i = 0; i < 2; ++i) e += std::fabs(y[k][i]) * spread[i] / tiles[i]->half[m] * kUp;
+      // Y J0 is the identity but for the rounding of Y.
+      e += 0x1p-50 * (std::fabs(j[0][0] * j[1][1]) + std::fabs(j[0][1] * j[1][0])) /
+           std::fabs(determinant);
+      image[k] += e * reach[m] * kUp;
+    }
+    if (!((std::fabs(d[k]) + image[k]) * kUp < reach[k])) return std::nullopt;
+  }
+  Box<2> box;
+  for (int k = 0; k < 2; ++k) {
+    // Around a double, with multiples of some ulps, and room for a checker.
+    const double x = a.x[k] - d[k];
+    const double wanted = std::max(16 * (image[k] + ulp(x)),
+                                   16 * ulp(std::max(std::fabs(x), 0x1p-20 * around.width(k))));
+    const double unit = 4 * ulp(std::fabs(x) + wanted);
+    const double r = std::ceil(wanted / unit) * unit;
+    box.lo[k] = x - r;
+    box.hi[k] = x + r;
+    if (!(around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k])) return std::nullopt;
+  }
+  return box;
 }
 
 std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& around, Tiles* tiles) {
@@ -161,9 +247,6 @@ std::optional<Box<2>> PlaneRoots::krawczyk_box(const Box<2>& around, const Contr
 std::optional<Box<2>> PlaneRoots::enclose(const Tiles& tiles, const Box<2>& around,
                                           const Contraction<2>& c, Point<2> x) const {
   std::optional<Box<2>> best;
-  const auto narrow = [&](const Box<2>& box) {
-    return box.largest_width() <= 128 * ulp(std::max(std::fabs(x[0]), std::fabs(x[1])));
-  };
   // Values from sums of two doubles, then from MPFR where those are too coarse.
   for (int bits = kernel_.start_bits; bits > 0 && bits <= 4 * Kernel::kDoubleBits;
        bits = kernel_.next(bits)) {
@@ -208,17 +291,18 @@ std::optional<Box<2>> PlaneRoots::enclose(const Tiles& tiles, const Box<2>& arou
 }
 
 std::optional<int> PlaneRoots::near(const PlaneSubdivision<2>::Node& node,
-                                    const Contraction<2>& contraction) {
+                                    const SystemVerdict& verdict) {
   const Box<2>& leaf = node.box;
   Tiles tiles = node.tile;
-  const auto x = newton(tiles, leaf);
-  if (!x) return std::nullopt;
+  const auto approximation = newton(tiles, leaf, verdict.zeros);
+  if (!approximation) return std::nullopt;
+  const Point<2>& x = approximation->x;
   double offset = 0;
   for (int i = 0; i < 2; ++i)
-    offset = std::max(offset, std::fabs((*x)[i] - leaf.center()[i]) / (0.5 * leaf.width(i)));
+    offset = std::max(offset, std::fabs(x[i] - leaf.center()[i]) / (0.5 * leaf.width(i)));
   if (!(offset < 1.7)) return std::nullopt;
   Box<2> around = leaf;
-  const Contraction<2>* valid = &contraction;
+  const Contraction<2>* valid = &verdict.contraction;
   std::optional<Contraction<2>> wider;
   if (offset > 0.95) {
     // The zero is at the border or outside: argue on a box that has it well inside.
@@ -230,7 +314,10 @@ std::optional<int> PlaneRoots::near(const PlaneSubdivision<2>::Node& node,
     if (!wider) return std::nullopt;
     valid = &*wider;
   }
-  const auto root = enclose(tiles, around, *valid, *x);
+  std::optional<Box<2>> root;
+  if (kernel_.start_bits <= Kernel::kDoubleBits)
+    root = tight_box(node.tile, around, *approximation);
+  if (!root || !narrow(*root)) root = enclose(tiles, around, *valid, x);
   if (!root) return std::nullopt;
   for (std::size_t k = 0; k < roots.size(); ++k) {
     if (!roots[k].meets(*root)) continue;
@@ -256,7 +343,7 @@ RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
     test_system(p, q, kQuality, &verdict);
     if (verdict.excluded) return cover::kExcluded;
     if (verdict.contracts)
-      if (const auto k = roots.near(node, verdict.contraction)) return *k;
+      if (const auto k = roots.near(node, verdict)) return *k;
     for (int i = 0; i < 2; ++i) {
       node.part.lo[i] = std::max(-1.0, verdict.zeros.lo[i]);
       node.part.hi[i] = std::min(1.0, verdict.zeros.hi[i]);

@@ -106,7 +106,8 @@ template <int N>
 HWY_INLINE Extremes expand_net(const double* a, int degree, const double* xs, const double* ys,
                                const Interpolation& table, Net* net) {
   HWY_ALIGN double columns[N][16];  // [k][j]: sum over i of a[i][j] x_k^i
-  for (int part = degree / 8; part >= 0; --part) {
+  int part = degree / 8;
+  do {
     const double* from = a + 8 * part;
     Row sum[N];
     const int top = degree - 8 * part;
@@ -116,7 +117,7 @@ HWY_INLINE Extremes expand_net(const double* a, int degree, const double* xs, co
       for (int k = 0; k < N; ++k) sum[k] = sum[k] * Row::all(xs[k]) + row;
     }
     for (int k = 0; k < N; ++k) sum[k].store(&columns[k][8 * part]);
-  }
+  } while (--part >= 0);
   const Row y = Row::load(ys);
   Row value[N];
   for (int k = 0; k < N; ++k) value[k] = Row::all(columns[k][degree]);
