@@ -13,6 +13,8 @@ namespace {
 /// has room, and radii are at most some times the residual.
 constexpr double kQuality = 0.8;
 constexpr double kUp = 1 + 0x1p-40;
+constexpr int kCloserLooks = 3;
+constexpr double kSmallPart = 0.25;  // of a box's area
 constexpr int kUsualLevels = 16;  // of halvings, after which most simple crossings are told apart
 
 double ulp(double x) {
@@ -36,11 +38,17 @@ class PlaneRoots {
 
   std::vector<Box<2>> roots;
 
+  using Tiles = std::array<const Tile*, 2>;
+
   /// The number of the root that a box can contain which holds at most one, if there is one near.
-  std::optional<int> near(const PlaneSubdivision<2>::Node& node, const SystemVerdict& verdict);
+  std::optional<int> near(const Tiles& node_tiles, const Box<2>& leaf,
+                          const SystemVerdict& verdict);
+
+  /// What becomes of a box on which the patches are given: the token that settles it, or nothing
+  /// and the part (in the box's coordinates) that holds all zeros.
+  std::optional<int> settle(const PlaneSubdivision<2>::Node& node, Box<2>* part);
 
  private:
-  using Tiles = std::array<const Tile*, 2>;
   struct Step {
     Point<2> d;
     Matrix<2> jacobian;
@@ -54,8 +62,9 @@ class PlaneRoots {
                                   const std::array<double, 2>* values) const;
   std::optional<Approximation> newton(const Tiles& tiles, const Box<2>& leaf,
                                       const Box<2>& zeros) const;
-  std::optional<Box<2>> tight_box(const Tiles& tiles, const Box<2>& around,
-                                  const Approximation& a) const;
+  std::optional<Box<2>> tight_box(const Tiles& tiles, const Box<2>& around, Approximation a) const;
+  std::optional<Box<2>> tight_box_at(const Tiles& tiles, const Box<2>& around,
+                                     const Approximation& a, Point<2>* d) const;
   std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
   std::optional<Box<2>> enclose(const Tiles& tiles, const Box<2>& around, const Contraction<2>& c,
                                 Point<2> x) const;
@@ -67,6 +76,8 @@ class PlaneRoots {
   Kernel& kernel_;
   int count_ = 0;
   std::array<Tile, 2> around_tiles_;
+  std::array<Patch, 2> patches_;
+  SystemVerdict verdict_;
 };
 
 /// J(x) d = F(x), with the approximate Jacobian; F from the tiles where no values are given.
@@ -114,7 +125,7 @@ std::optional<PlaneRoots::Approximation> PlaneRoots::newton(const Tiles& tiles, 
       if (!(std::fabs(a.x[i] - start[i]) <= reach)) return std::nullopt;
     }
     // Quadratic convergence: what remains is the business of more precise values.
-    if (size <= 1e-5 * width || (round > 2 && size >= 0.5 * last)) break;
+    if (size <= 1e-6 * width || (round > 2 && size >= 0.5 * last)) break;
     last = size;
   }
   return a;
@@ -124,13 +135,15 @@ std::optional<PlaneRoots::Approximation> PlaneRoots::newton(const Tiles& tiles, 
 /// with Y the inverse of the Jacobian J0 known at a point nearby, and |J - J0| bounded on
 /// X = a.x +- reach, every zero z in X has |z - (a.x - Y F(a.x))| <= E reach, E = |I - Y J|; if
 /// that is inside X there is one. (docs/error-bounds.md, section 5.)
-std::optional<Box<2>> PlaneRoots::tight_box(const Tiles& tiles, const Box<2>& around,
-                                            const Approximation& a) const {
+std::optional<Box<2>> PlaneRoots::tight_box_at(const Tiles& tiles, const Box<2>& around,
+                                               const Approximation& a, Point<2>* step) const {
   const Matrix<2>& j = a.jacobian;
   const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
   const Matrix<2> y{{{j[1][1] / determinant, -j[0][1] / determinant},
                      {-j[1][0] / determinant, j[0][0] / determinant}}};
-  Point<2> d{0, 0}, error{0, 0}, reach;
+  Point<2>& d = *step;
+  d = {0, 0};
+  Point<2> error{0, 0}, reach;
   for (int i = 0; i < 2; ++i) {
     const double value = system_[i]->value(a.x);
     const double bound = tiles[i]->value_error + 0x1p-52 * std::fabs(value);
@@ -183,6 +196,19 @@ std::optional<Box<2>> PlaneRoots::tight_box(const Tiles& tiles, const Box<2>& ar
     if (!(around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k])) return std::nullopt;
   }
   return box;
+}
+
+/// The same, with the Jacobian from closer by where that makes the box narrower.
+std::optional<Box<2>> PlaneRoots::tight_box(const Tiles& tiles, const Box<2>& around,
+                                            Approximation a) const {
+  for (int round = 0;; ++round) {
+    Point<2> d;
+    const auto box = tight_box_at(tiles, around, a, &d);
+    if (round == 2 || (box && narrow(*box))) return box;
+    const auto step = newton_step(tiles, a.x, nullptr);
+    if (!step) return box;
+    a = {{a.x[0] - d[0], a.x[1] - d[1]}, a.x, step->jacobian};
+  }
 }
 
 std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& around, Tiles* tiles) {
@@ -290,10 +316,9 @@ std::optional<Box<2>> PlaneRoots::enclose(const Tiles& tiles, const Box<2>& arou
   return best;
 }
 
-std::optional<int> PlaneRoots::near(const PlaneSubdivision<2>::Node& node,
+std::optional<int> PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf,
                                     const SystemVerdict& verdict) {
-  const Box<2>& leaf = node.box;
-  Tiles tiles = node.tile;
+  Tiles tiles = node_tiles;
   const auto approximation = newton(tiles, leaf, verdict.zeros);
   if (!approximation) return std::nullopt;
   const Point<2>& x = approximation->x;
@@ -316,7 +341,7 @@ std::optional<int> PlaneRoots::near(const PlaneSubdivision<2>::Node& node,
   }
   std::optional<Box<2>> root;
   if (kernel_.start_bits <= Kernel::kDoubleBits)
-    root = tight_box(node.tile, around, *approximation);
+    root = tight_box(node_tiles, around, *approximation);
   if (!root || !narrow(*root)) root = enclose(tiles, around, *valid, x);
   if (!root) return std::nullopt;
   for (std::size_t k = 0; k < roots.size(); ++k) {
@@ -329,6 +354,42 @@ std::optional<int> PlaneRoots::near(const PlaneSubdivision<2>::Node& node,
   return static_cast<int>(roots.size()) - 1;
 }
 
+/// The part of a box with given local coordinates, or a little more.
+Box<2> part_of(const Box<2>& box, const Box<2>& local) {
+  Box<2> part = box;
+  for (int i = 0; i < 2; ++i) {
+    const double width = box.width(i);
+    part.lo[i] = std::max(box.lo[i], box.lo[i] + (0.5 * (local.lo[i] + 1) - 1e-9) * width);
+    part.hi[i] = std::min(box.hi[i], box.lo[i] + (0.5 * (local.hi[i] + 1) + 1e-9) * width);
+  }
+  return part;
+}
+
+std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box<2>* part) {
+  test_system(node.patch[0], node.patch[1], kQuality, &verdict_);
+  Box<2> box = node.box;
+  for (int round = 0;; ++round) {
+    if (verdict_.excluded) return cover::kExcluded;
+    if (verdict_.contracts) return near(node.tile, box, verdict_);
+    Box<2> zeros = verdict_.zeros;
+    for (int i = 0; i < 2; ++i) {
+      zeros.lo[i] = std::max(-1.0, zeros.lo[i]);
+      zeros.hi[i] = std::min(1.0, zeros.hi[i]);
+    }
+    if (round == 0) *part = zeros;
+    // Where all zeros lie in a small part, a closer look at that part is worth its price.
+    if (round == kCloserLooks || zeros.width(0) * zeros.width(1) > 4 * kSmallPart)
+      return std::nullopt;
+    box = part_of(box, zeros);
+    if (!(box.width(0) > 0 && box.width(1) > 0)) return std::nullopt;
+    for (int i = 0; i < 2; ++i) {
+      expand(*node.tile[i], box, count_, &patches_[i]);
+      if (patches_[i].sign()) return cover::kExcluded;
+    }
+    test_system(patches_[0], patches_[1], kQuality, &verdict_);
+  }
+}
+
 }  // namespace
 
 RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
@@ -337,19 +398,11 @@ RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
   RootIsolation<2> result;
   result.root_box = f.box();
   PlaneRoots roots(f, g, kernel);
-  SystemVerdict verdict;
   const auto visit = [&](PlaneSubdivision<2>::Node& node) {
-    const Patch &p = node.patch[0], &q = node.patch[1];
-    test_system(p, q, kQuality, &verdict);
-    if (verdict.excluded) return cover::kExcluded;
-    if (verdict.contracts)
-      if (const auto k = roots.near(node, verdict)) return *k;
-    for (int i = 0; i < 2; ++i) {
-      node.part.lo[i] = std::max(-1.0, verdict.zeros.lo[i]);
-      node.part.hi[i] = std::min(1.0, verdict.zeros.hi[i]);
-    }
+    if (const auto token = roots.settle(node, &node.part)) return *token;
     if (node.level < kUsualLevels) return wider_axis(node.box);
     // Across the axis along which they change more: curves that touch or share a tangent there.
+    const Patch &p = node.patch[0], &q = node.patch[1];
     const auto v = variation(p), w = variation(q);
     const double x = v[0] / (p.magnitude() + 1e-300) + w[0] / (q.magnitude() + 1e-300),
                  y = v[1] / (p.magnitude() + 1e-300) + w[1] / (q.magnitude() + 1e-300);
