@@ -12,8 +12,8 @@ namespace encase::verification {
 
 namespace {
 
-/// How often a leaf may be halved to prove what does not show on the whole of it.
-constexpr int kLeafDepth = 6;
+/// Into how many parts a leaf may be cut to prove what does not show on the whole of it.
+constexpr int kLeafParts = 2000;
 
 /// Halves a closed box at the double next to its middle: two closed boxes whose union it is. False
 /// if there is no double in between.
@@ -25,13 +25,20 @@ bool halves(const Box<2>& box, std::size_t axis, Box<2>* lower, Box<2>* upper) {
   return true;
 }
 
-/// Whether `proves` holds on every part of some subdivision of the box.
+/// Whether `proves` holds on every part of some subdivision of the box. Uses up `parts`.
 template <class Proves>
-bool by_parts(const Box<2>& box, int depth, const Proves& proves) {
+bool by_parts(const Box<2>& box, int* parts, const Proves& proves) {
   if (proves(box)) return true;
   Box<2> lower, upper;
-  if (depth == 0 || !halves(box, box.width(1) > box.width(0) ? 1 : 0, &lower, &upper)) return false;
-  return by_parts(lower, depth - 1, proves) && by_parts(upper, depth - 1, proves);
+  if (--*parts < 0 || !halves(box, box.width(1) > box.width(0) ? 1 : 0, &lower, &upper))
+    return false;
+  return by_parts(lower, parts, proves) && by_parts(upper, parts, proves);
+}
+
+template <class Proves>
+bool by_parts(const Box<2>& box, const Proves& proves) {
+  int parts = kLeafParts;
+  return by_parts(box, &parts, proves);
 }
 
 bool contains_region(const Box<2>& box, const Region& region) {
@@ -145,7 +152,7 @@ void check_crossing_covers(Claims& claims) {
                    : "is in no unresolved box of the pair";
       if (token == cover::kExcluded)
         return by_parts(
-                   leaf, kLeafDepth,
+                   leaf,
                    [&](const Box<2>& box) { return no_common_zero<2>(pair, box, claims.kernel); })
                    ? nullptr
                    : "is not proved free of crossings";
@@ -158,8 +165,7 @@ void check_crossing_covers(Claims& claims) {
                at_most_one_zero<2>(pair, hull(box, crossing.box), claims.kernel) ||
                no_common_zero<2>(pair, box, claims.kernel);
       };
-      return by_parts(leaf, kLeafDepth, proves) ? nullptr
-                                                : "is not proved to hold only its crossing";
+      return by_parts(leaf, proves) ? nullptr : "is not proved to hold only its crossing";
     };
     replay(claims, "Crossing cover " + std::to_string(i), c.root, c.tokens, check);
   }
@@ -174,7 +180,7 @@ void check_critical_regions(Claims& claims) {
     const auto& f = claims.curves[static_cast<std::size_t>(region.curve)];
     bool proved = true;
     for (const Box<2>& box : region.boxes) {
-      proved = by_parts(box, kLeafDepth, [&](const Box<2>& part) {
+      proved = by_parts(box, [&](const Box<2>& part) {
         return sign_on_box(f, part, claims.kernel) == region.sign;
       });
       if (!proved) break;
@@ -202,7 +208,7 @@ void check_critical_covers(Claims& claims) {
       if (token == cover::kUnresolved)
         return unresolved(e, leaf, {c.curve}) ? nullptr : "is in no unresolved box of the curve";
       if (token == cover::kExcluded)
-        return by_parts(leaf, kLeafDepth,
+        return by_parts(leaf,
                         [&](const Box<2>& box) {
                           return no_relevant_critical_point(f, box, claims.kernel);
                         })
