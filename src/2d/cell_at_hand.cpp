@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/tile_samples.hpp"
+
 namespace encase {
 namespace {
 
@@ -28,6 +30,7 @@ constexpr double kFurtherBranchOfCurves = 1.7;
 // What a line is worth besides.
 constexpr double kSliver = 0.045;  // for each halving of the distance to what is closest
 constexpr double kBalance = 0.05;
+constexpr double kTie = 1e-9;
 
 /// About log2(x), for x > 0: exact at powers of two, linear between.
 double rough_logarithm(double x) {
@@ -58,7 +61,8 @@ CellAtHand::CellAtHand(Partition& partition) : partition_(partition) {
 
 void CellAtHand::take(const OpenCell& cell) {
   cell_ = &cell;
-  has_points_ = has_cut_ = false;
+  has_points_ = false;
+  start_again();
   std::fill(slot_.begin(), slot_.end(), cell.zones.empty() ? -1 : 0);
   const auto& crossings = partition_.line_crossings;
   for (const int id : cell.word) slot_[crossings[id].curve] = 0;
@@ -118,6 +122,10 @@ bool CellAtHand::is_simple(const Part& part) {
   return branches <= 1 || (branches == 2 && part.crossings == 1);
 }
 
+bool CellAtHand::leaves_simple_parts() const {
+  return is_simple(parts_[0]) && is_simple(parts_[1]);
+}
+
 double CellAtHand::expected_cells(const Part& part) {
   int curves = 0, branches = 0;
   double loose = 0;
@@ -145,17 +153,116 @@ int CellAtHand::least_cells(const Part& part) {
   return std::max(1, total);
 }
 
-void CellAtHand::find_score() {
+double CellAtHand::score() const {
   const double a = expected_cells(parts_[0]), b = expected_cells(parts_[1]);
-  trial_.score = a + b + slivers_ - kBalance * std::min(a, b) / (a + b);
+  return a + b + slivers_ - kBalance * std::min(a, b) / (a + b);
 }
 
 /// Whether the line cannot become better than the best. Counts only grow, so this may be asked
 /// before all curves are restricted to it.
-bool CellAtHand::is_beaten() {
-  if (!has_cut_) return false;
-  find_score();
-  return !(trial_.score < best_.score - 1e-9);
+bool CellAtHand::is_beaten() const { return has_cut_ && !(score() < best_.score - kTie); }
+
+void CellAtHand::clear_parts() {
+  for (Part& part : parts_) {
+    part.curves = whole_.curves;
+    part.crossings = 0;
+    for (Presence& p : part.curves) p.ends = p.crossings = 0;
+  }
+}
+
+void CellAtHand::set_slivers(const Line& line, double clearance) {
+  const Point<2>& normal = line.normal;
+  clearance /= std::sqrt(normal[0] * normal[0] + normal[1] * normal[1]);
+  slivers_ = kSliver * std::max(0.0, -5 - rough_logarithm(std::max(1e-12, clearance / extent_)));
+}
+
+/// Where the line meets the boundary, about; false if it seems to miss the cell.
+bool CellAtHand::guess_chord(const Line& line, std::array<Point<2>, 2>* ends) {
+  const auto& vertices = cell_->vertices;
+  const Point<2>* last = &vertices.back().center;
+  double last_height = height(line, *last);
+  int count = 0;
+  for (const Place& vertex : vertices) {
+    const Point<2>& here = vertex.center;
+    const double h = height(line, here);
+    clearance_ = std::min(clearance_, std::fabs(h));
+    if ((h > 0) != (last_height > 0)) {
+      if (count == 2) return false;
+      const double w = last_height / (last_height - h);
+      (*ends)[count++] = {(*last)[0] + w * (here[0] - (*last)[0]),
+                          (*last)[1] + w * (here[1] - (*last)[1])};
+    }
+    last = &here;
+    last_height = h;
+  }
+  return count == 2;
+}
+
+/// Counts what is on either side; false if a crossing or a zone may be on the line.
+bool CellAtHand::guess_division(const Line& line) {
+  const auto& points = this->points();  // before the parts, which it uses
+  clear_parts();
+  for (const InnerCrossing& crossing : crossings_) {
+    const LineValue at = value_at(line, crossing.place);
+    if (!(std::fabs(at.value) > at.error)) return false;
+    clearance_ = std::min(clearance_, std::fabs(at.value));
+    Part& part = parts_[at.value > 0];
+    ++part.crossings;
+    for (const int s : crossing.slots)
+      if (s >= 0) ++part.curves[s].crossings;
+  }
+  for (const int id : cell_->zones) {
+    const LineValue at = value_at(line, partition_.zones[id].box);
+    if (!(std::fabs(at.value) > at.error)) return false;
+  }
+  for (const BoundaryPoint& point : points)
+    ++parts_[height(line, point.at) > 0].curves[slot_[point.curve]].ends;
+  return true;
+}
+
+/// Adds the roots that the curves seem to have on a chord; false once the score reaches the limit.
+bool CellAtHand::guess_roots(const std::array<Point<2>, 2>& ends, double limit) {
+  for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
+    TiledPolynomial& f = partition_.tiles()[whole_.curves[s].curve];
+    const int old = parts_[0].curves[s].ends;
+    int roots = count_sign_changes(f, ends[0], ends[1]);
+    // A curve enters a cell as often as it leaves it.
+    if ((roots + old) % 2 != 0) ++roots;
+    for (Part& part : parts_) part.curves[s].ends += roots;
+    if (!(score() < limit)) return false;
+  }
+  return true;
+}
+
+/// Guesses the score of a line; false if it seems not to cut the cell. The roots on the line are
+/// left out where the score reaches the limit without them.
+bool CellAtHand::weigh(double limit, Proposal* proposal) {
+  const Line& line = proposal->line;
+  const double square = line.normal[0] * line.normal[0] + line.normal[1] * line.normal[1];
+  if (!(square > 1e-200 && square < 1e200) || !std::isfinite(line.offset)) return false;
+  clearance_ = HUGE_VAL;
+  std::array<Point<2>, 2> ends;
+  if (!guess_chord(line, &ends) || !guess_division(line)) return false;
+  set_slivers(line, clearance_);
+  proposal->sampled = score() < limit && guess_roots(ends, limit);
+  proposal->score = score();
+  return true;
+}
+
+void CellAtHand::propose(const Line& line) {
+  ++partition_.lines_tried;
+  Proposal proposal{line, 0, false};
+  if (!weigh(best_score_ - kTie, &proposal)) return;
+  proposals_.push_back(proposal);
+  if (!proposal.sampled) return;
+  best_score_ = proposal.score;
+  seems_finished_ = leaves_simple_parts();
+}
+
+void CellAtHand::start_again() {
+  proposals_.clear();
+  best_score_ = HUGE_VAL;
+  seems_finished_ = has_cut_ = false;
 }
 
 /// The edges where the line enters and leaves, and how close it comes to a vertex.
@@ -183,11 +290,7 @@ bool CellAtHand::cross_boundary(const Line& line, double* clearance) {
 }
 
 bool CellAtHand::divide_crossings(const Line& line, double* clearance) {
-  for (Part& part : parts_) {
-    part.curves = whole_.curves;
-    part.crossings = 0;
-    for (Presence& p : part.curves) p.ends = p.crossings = 0;
-  }
+  clear_parts();
   trial_.positive.resize(crossings_.size());
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
     const LineValue at = value_at(line, crossings_[i].place);
@@ -255,25 +358,37 @@ bool CellAtHand::add_new_crossings(const Line& line) {
 }
 
 bool CellAtHand::cuts_well(const Line& line) {
-  const double square = line.normal[0] * line.normal[0] + line.normal[1] * line.normal[1];
-  if (!(square > 1e-200 && square < 1e200) || !std::isfinite(line.offset)) return false;
   double clearance = HUGE_VAL;
   if (!cross_boundary(line, &clearance) || !divide_crossings(line, &clearance)) return false;
-  clearance /= std::sqrt(square);
-  slivers_ = kSliver * std::max(0.0, -5 - rough_logarithm(std::max(1e-12, clearance / extent_)));
-  if (!count_old_crossings(line) || is_beaten() || !add_new_crossings(line)) return false;
-  if (!has_cut_) find_score();
-  return true;
+  set_slivers(line, clearance);
+  return count_old_crossings(line) && !is_beaten() && add_new_crossings(line);
 }
 
-void CellAtHand::propose(const Line& line) {
-  ++partition_.lines_tried;
+/// Proves what a line does, and keeps the cut if it is the best.
+void CellAtHand::prove(const Line& line) {
   if (!cuts_well(line)) return;
   trial_.line = line;
-  best_finishes_ = is_simple(parts_[0]) && is_simple(parts_[1]);
+  trial_.score = score();
   for (int k = 0; k < 2; ++k) trial_.least_cells[k] = least_cells(parts_[k]);
   std::swap(trial_, best_);
+  is_finished_ = leaves_simple_parts();
   has_cut_ = true;
+}
+
+bool CellAtHand::prove_best() {
+  while (!proposals_.empty()) {
+    const auto next =
+        std::min_element(proposals_.begin(), proposals_.end(),
+                         [](const Proposal& a, const Proposal& b) { return a.score < b.score; });
+    if (has_cut_ && !(next->score < best_.score - kTie)) break;
+    if (!next->sampled && weigh(HUGE_VAL, &*next)) continue;
+    prove(next->line);
+    proposals_.erase(next);
+  }
+  proposals_.clear();
+  best_score_ = has_cut_ ? best_.score : HUGE_VAL;
+  seems_finished_ = is_finished();
+  return has_cut_;
 }
 
 }  // namespace encase

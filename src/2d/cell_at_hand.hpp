@@ -2,15 +2,16 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "2d/partition.hpp"
 
 namespace encase {
 
-/// The open cell that is being worked on, with what trying lines on it needs again and again, and
-/// the best cut found so far. One object serves all cells in turn: once its arrays have grown,
-/// neither a cell nor a line costs an allocation.
+/// The open cell that is being worked on, with what trying lines on it needs again and again, the
+/// lines proposed for it and the cut that was proved. One object serves all cells in turn: once its
+/// arrays have grown, neither a cell nor a line costs an allocation.
 class CellAtHand {
  public:
   explicit CellAtHand(Partition& partition);
@@ -45,14 +46,25 @@ class CellAtHand {
   /// The cells to be expected of the whole cell.
   double expected_cells() const { return expected_cells(whole_); }
 
-  /// Tries a line. It is dropped if it misses the cell, meets a vertex, a crossing box or a zone,
-  /// if the roots on it are not proved, or if the cut is not better than the best.
+  /// Notes a line that seems to cut the cell. How many roots the curves have on it is only guessed,
+  /// from some values of their polynomials.
   void propose(const Line& line);
+  /// The score that the best line seems to have.
+  double best_score() const { return best_score_; }
+  /// Whether the best line seems to leave two parts that need no further cut but for loops.
+  bool seems_finished() const { return seems_finished_; }
+
+  /// Proves what the proposed lines do, the most promising first, until none of the others can be
+  /// better; forgets them and keeps the best cut. A line is dropped if it misses the cell, meets a
+  /// vertex, a crossing box or a zone, or if the roots on it are not proved. False if there is no
+  /// cut.
+  bool prove_best();
   bool has_cut() const { return has_cut_; }
   /// Whether the best cut leaves two parts that need no further cut but for loops.
-  bool is_finished() const { return has_cut_ && best_finishes_; }
+  bool is_finished() const { return has_cut_ && is_finished_; }
   Cut& cut() { return best_; }
-  void drop_cut() { has_cut_ = false; }
+  /// Forgets the lines proposed and the best cut.
+  void start_again();
 
  private:
   struct Part {
@@ -63,12 +75,25 @@ class CellAtHand {
     Place place;
     std::array<int, 2> slots;  // of its curves
   };
+  struct Proposal {
+    Line line;
+    double score;  ///< at least so much, if the values used do not deceive
+    bool sampled;  ///< the roots on the line are in the score
+  };
   static int branches_of(const Presence& presence);
   static bool is_simple(const Part& part);
+  bool leaves_simple_parts() const;
   static double expected_cells(const Part& part);
   static int least_cells(const Part& part);
-  void find_score();
-  bool is_beaten();
+  void clear_parts();
+  double score() const;
+  bool guess_chord(const Line& line, std::array<Point<2>, 2>* ends);
+  bool guess_division(const Line& line);
+  bool guess_roots(const std::array<Point<2>, 2>& ends, double limit);
+  bool weigh(double limit, Proposal* proposal);
+  void set_slivers(const Line& line, double clearance);
+  bool is_beaten() const;
+  void prove(const Line& line);
   bool cross_boundary(const Line& line, double* clearance);
   bool divide_crossings(const Line& line, double* clearance);
   bool count_old_crossings(const Line& line);
@@ -82,12 +107,16 @@ class CellAtHand {
   std::vector<int> slot_;  // of every curve, among those present; -1 for others
   std::vector<InnerCrossing> crossings_;
   double extent_ = 0;
-  double slivers_ = 0;  // the penalty of the line that is tried
+  double clearance_ = 0;  // of the line that is weighed
+  double slivers_ = 0;    // the penalty of the line that is tried
   std::vector<BoundaryPoint> points_;
   bool has_points_ = false;
   std::vector<char> sides_;  // of the vertices
+  std::vector<Proposal> proposals_;
+  double best_score_ = HUGE_VAL;
+  bool seems_finished_ = false;
   Cut trial_, best_;
-  bool has_cut_ = false, best_finishes_ = false;
+  bool has_cut_ = false, is_finished_ = false;
 };
 
 }  // namespace encase

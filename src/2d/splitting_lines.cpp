@@ -69,9 +69,11 @@ void SplittingLines::keep_closest(std::size_t count) {
 SplittingLines::SplittingLines(CellAtHand& cell, bool fast)
     : cell_(cell), partition_(cell.partition()), enough_(fast ? kEnoughWhenFast : HUGE_VAL) {}
 
-bool SplittingLines::is_good_enough() const {
-  return cell_.is_finished() ||
-         (cell_.has_cut() && cell_.cut().score < cell_.expected_cells() - enough_);
+/// Whether the best line is proved to be good enough.
+bool SplittingLines::is_good_enough() {
+  const double limit = cell_.expected_cells() - enough_;
+  if (!cell_.seems_finished() && !(cell_.best_score() < limit)) return false;
+  return cell_.prove_best() && (cell_.is_finished() || cell_.cut().score < limit);
 }
 
 void SplittingLines::propose_between_crossings() {
@@ -244,14 +246,15 @@ SplittingLines::Pair SplittingLines::longest_chord() {
 }
 
 /// The longest chord, bisected at right angles.
-void SplittingLines::propose_bisector() {
+bool SplittingLines::find_bisector() {
   const Pair longest = longest_chord();
-  if (longest.a < 0) return;
+  if (longest.a < 0) return false;
   const Point<2> a = cell_.points()[longest.a].at, b = cell_.points()[longest.b].at;
   for (const double w : {0.5, 0.43, 0.57}) {
     cell_.propose(line_through({a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1])}, minus(b, a)));
-    if (cell_.has_cut()) return;
+    if (cell_.prove_best()) return true;
   }
+  return false;
 }
 
 /// Lines that hug a branch (thesis 3.5): past the point where the bisector of its longest chord
@@ -283,7 +286,7 @@ void SplittingLines::propose_refinement() {
 }
 
 bool SplittingLines::find_best() {
-  cell_.drop_cut();
+  cell_.start_again();
   const auto& curves = cell_.curves();
   // Levels without progress: halve the longest branch, then give separation another chance.
   const bool pair_only =
@@ -293,29 +296,27 @@ bool SplittingLines::find_best() {
   if (stall > 0 && stall % (patience + 1) == patience) {
     // Subdivide; every third time, refine.
     if (stall / (patience + 1) % 3 == 2) propose_refinement();
-    if (!cell_.has_cut()) propose_bisector();
-    if (cell_.has_cut()) return true;
+    if (cell_.prove_best() || find_bisector()) return true;
   }
   propose_between_crossings();
   if (!is_good_enough()) propose_between_branches();
   if (!is_good_enough()) propose_between_curves();
-  if (!cell_.has_cut() || cell_.cut().score > cell_.expected_cells() + kPoor)
+  if (!cell_.prove_best() || cell_.cut().score > cell_.expected_cells() + kPoor)
     propose_closest_approach();
-  if (!cell_.has_cut()) propose_bisector();
-  return cell_.has_cut();
+  return cell_.prove_best() || find_bisector();
 }
 
 bool SplittingLines::find_through(const Point<2>& point) {
-  cell_.drop_cut();
+  cell_.start_again();
   // Normals 30 degrees apart, none of them along an axis.
   static const Point<2> normals[] = {{0.99916, 0.04091},  {0.84485, 0.53500},  {0.46416, 0.88575},
                                      {-0.04091, 0.99916}, {-0.53500, 0.84485}, {-0.88575, 0.46416}};
   for (const Point<2>& normal : normals) cell_.propose(line_through(point, normal));
-  return cell_.has_cut();
+  return cell_.prove_best();
 }
 
 bool SplittingLines::find_along(const Box<2>& box) {
-  cell_.drop_cut();
+  cell_.start_again();
   for (int axis = 0; axis < 2; ++axis) {
     Point<2> normal{0, 0};
     normal[axis] = 1;
@@ -327,16 +328,16 @@ bool SplittingLines::find_along(const Box<2>& box) {
       cell_.propose(line_through(point, normal));
     }
   }
-  return cell_.has_cut();
+  return cell_.prove_best();
 }
 
 bool SplittingLines::find_any() {
-  cell_.drop_cut();
+  cell_.start_again();
   const auto& vertices = cell_.cell().vertices;
   Point<2> center{0, 0};
   for (const Place& v : vertices)
     for (int i = 0; i < 2; ++i) center[i] += v.center[i] / static_cast<double>(vertices.size());
-  for (int i = 0; i < 40 && !cell_.has_cut(); ++i) {
+  for (int i = 0; i < 40; ++i) {
     // Directions by the golden angle, points on spokes from the centre to the vertices.
     const double angle = 2.399963 * (i + 1);
     const Point<2>& corner = vertices[i % vertices.size()].center;
@@ -344,8 +345,9 @@ bool SplittingLines::find_any() {
     const Point<2> at{center[0] + w * (corner[0] - center[0]),
                       center[1] + w * (corner[1] - center[1])};
     cell_.propose(line_through(at, {std::cos(angle), std::sin(angle)}));
+    if (cell_.prove_best()) return true;
   }
-  return cell_.has_cut();
+  return false;
 }
 
 }  // namespace encase

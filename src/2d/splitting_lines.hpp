@@ -7,8 +7,8 @@
 
 namespace encase {
 
-/// Proposes lines for a cell; what they do is checked by `CellAtHand::propose`, which keeps the
-/// best. Each member tells whether there is a cut.
+/// Proposes lines for a cell; what they do is proved by `CellAtHand`, which keeps the best. Each
+/// member tells whether there is a cut.
 class SplittingLines {
  public:
   /// `fast`: content with the first line that is not bad instead of looking for the best.
@@ -30,7 +30,7 @@ class SplittingLines {
     double gap;  ///< squared
   };
   void keep_closest(std::size_t count);
-  bool is_good_enough() const;
+  bool is_good_enough();
   void propose_between_crossings();
   void propose_through_saddles(int curve);
   void propose_between_branches();
@@ -38,7 +38,7 @@ class SplittingLines {
   bool approach(BoundaryPoint* a, BoundaryPoint* b) const;
   void propose_closest_approach();
   Pair longest_chord();
-  void propose_bisector();
+  bool find_bisector();
   void propose_refinement();
 
   CellAtHand& cell_;

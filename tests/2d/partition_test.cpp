@@ -96,17 +96,18 @@ TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
   };
   CellAtHand at_hand(partition);
   at_hand.take(*cell);
-  at_hand.propose(line(1, 0, -2));
-  EXPECT_FALSE(at_hand.has_cut());  // misses
-  at_hand.propose(line(1, -1, 0));
-  EXPECT_FALSE(at_hand.has_cut());  // through corners
-  at_hand.propose(line(3, 0, -2));
-  ASSERT_TRUE(at_hand.has_cut());  // a part that no curve meets
+  at_hand.propose(line(1, 0, -2));  // misses
+  EXPECT_FALSE(at_hand.prove_best());
+  at_hand.propose(line(1, -1, 0));  // through corners
+  EXPECT_FALSE(at_hand.prove_best());
+  at_hand.propose(line(3, 0, -2));  // a part that no curve meets
+  ASSERT_TRUE(at_hand.prove_best());
   EXPECT_TRUE(at_hand.cut().roots.empty());
+  at_hand.propose(line(0, 1, -0.99));  // close to vertices
   at_hand.propose(line(0, 1, -0.25));
-  EXPECT_EQ(at_hand.cut().roots.size(), 1u);  // a better line
-  at_hand.propose(line(0, 1, -0.99));
-  EXPECT_EQ(at_hand.cut().line.offset, -0.25);  // a worse one, close to vertices
+  ASSERT_TRUE(at_hand.prove_best());  // a better line
+  EXPECT_EQ(at_hand.cut().line.offset, -0.25);
+  EXPECT_EQ(at_hand.cut().roots.size(), 1u);
   OpenCell below, above;
   ASSERT_TRUE(partition.apply(*cell, &at_hand.cut(), &below, &above));
   EXPECT_EQ(below.word.size(), 2u);
