@@ -46,14 +46,16 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve,
   // Small regions are cut by fewer lines but reached by more rays, and some saddles drop out on the
   // way; a region is not split below this width once f has a sign on it.
   const double fine = result.root_box.largest_width() * 0x1p-4;
-  // Boxes well below the usual size lie where branches stay close together: now and then more is
-  // tried there.
+  // Boxes well below the usual size are few, unless branches stay close together for a long way:
+  // then more is tried now and then.
   const double small = result.root_box.largest_width() * 0x1p-10;
+  constexpr int kFew = 64;
+  int small_boxes = 0;
   constexpr int kRegion = 0;
   const auto visit = [&](const PlaneSubdivision<1>::Node& node) {
     const CriticalVerdict verdict = test_critical(node.patch[0]);
     if (verdict.excluded) return cover::kExcluded;
-    if (node.level % 4 == 0 && node.box.largest_width() <= small &&
+    if (node.box.largest_width() <= small && ++small_boxes > kFew && node.level % 4 == 0 &&
         no_relevant_critical_point(f.polynomial(), node.box, kernel))
       return cover::kExcluded;
     // Across the axis along which f changes more, weighted by the width.
