@@ -25,20 +25,29 @@ bool halves(const Box<2>& box, std::size_t axis, Box<2>* lower, Box<2>* upper) {
   return true;
 }
 
-/// Whether `proves` holds on every part of some subdivision of the box. Uses up `parts`.
+/// Whether `proves` holds on every part of some subdivision of a box on which it does not. Uses up
+/// `parts`.
 template <class Proves>
-bool by_parts(const Box<2>& box, int* parts, const Proves& proves) {
-  if (proves(box)) return true;
-  Box<2> lower, upper;
-  if (--*parts < 0 || !halves(box, box.width(1) > box.width(0) ? 1 : 0, &lower, &upper))
-    return false;
-  return by_parts(lower, parts, proves) && by_parts(upper, parts, proves);
+bool by_halves(const Box<2>& box, int* parts, const Proves& proves) {
+  if (--*parts < 0) return false;
+  // Across the longer side, unless only the other way gets somewhere.
+  std::size_t axis = box.width(1) > box.width(0) ? 1 : 0;
+  std::array<Box<2>, 2> half;
+  std::array<bool, 2> proved{};
+  for (int attempt = 0; attempt < 2 && !proved[0] && !proved[1]; ++attempt) {
+    if (attempt > 0) axis = 1 - axis;
+    if (!halves(box, axis, &half[0], &half[1])) return false;
+    proved = {proves(half[0]), proves(half[1])};
+  }
+  if (!proved[0] && !proved[1]) halves(box, 1 - axis, &half[0], &half[1]);
+  return (proved[0] || by_halves(half[0], parts, proves)) &&
+         (proved[1] || by_halves(half[1], parts, proves));
 }
 
 template <class Proves>
 bool by_parts(const Box<2>& box, const Proves& proves) {
   int parts = kLeafParts;
-  return by_parts(box, &parts, proves);
+  return proves(box) || by_halves(box, &parts, proves);
 }
 
 bool contains_region(const Box<2>& box, const Region& region) {
