@@ -40,12 +40,9 @@ std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
 
 CriticalRegions critical_regions(TiledPolynomial& f, int curve,
                                  const std::vector<Line>& half_planes,
-                                 const SubdivisionLimits& asked, Kernel& kernel) {
+                                 const SubdivisionLimits& limits, Kernel& kernel) {
   CriticalRegions result;
   result.root_box = f.box();
-  // Where several branches of a curve meet, small boxes are many; still smaller ones tell no more.
-  SubdivisionLimits limits = asked;
-  limits.smallest = std::max(asked.smallest, 0x1p-40);
   // Small regions are cut by fewer lines but reached by more rays, and some saddles drop out on the
   // way; a region is not split below this width once f has a sign on it.
   const double fine = result.root_box.largest_width() * 0x1p-4;

@@ -30,6 +30,12 @@ std::string decimal(double x) {
   return text;
 }
 
+/// The part of the region's width beyond which boxes are not halved. Curves a tiny gap apart take
+/// boxes of its size; where several branches of one curve meet, smaller boxes only become more.
+double smallest_part(Unresolved::Kind kind) {
+  return kind == Unresolved::Kind::Contact ? 0x1p-44 : 0x1p-40;
+}
+
 }  // namespace
 
 Encaser::Encaser(const std::vector<NamedCurve>& input, const Region& region,
@@ -48,8 +54,9 @@ void Encaser::progress(const char* stage, double done) {
     budget_ = "the computation was cancelled";
 }
 
-SubdivisionLimits Encaser::limits(const char* stage) {
+SubdivisionLimits Encaser::limits(const char* stage, Unresolved::Kind kind) {
   SubdivisionLimits limits;
+  limits.smallest = smallest_part(kind);
   limits.stop = [this, stage] {
     progress(stage, -1);
     return out_of_budget();
@@ -209,7 +216,7 @@ void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
   std::string names;
   for (const int c : curves)
     names += (names.empty() ? "'" : " and '") + result_.curves[c].name + "'";
-  const SubdivisionLimits limits;
+  const double smallest = smallest_part(kind);
   for (const Box<2>& box : clusters_of(unresolved)) {
     Unresolved entry;
     entry.box = box;
@@ -219,8 +226,8 @@ void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
     bool at_cap = true;
     for (const Box<2>& leaf : unresolved)
       if (box.contains(leaf))
-        at_cap = at_cap && (leaf.width(0) <= limits.smallest * root.width(0) ||
-                            leaf.width(1) <= limits.smallest * root.width(1));
+        at_cap = at_cap && (leaf.width(0) <= smallest * root.width(0) ||
+                            leaf.width(1) <= smallest * root.width(1));
     if (at_cap) {
       entry.kind = kind;
       entry.reason = kind == Unresolved::Kind::Contact
@@ -248,7 +255,8 @@ void Encaser::isolate_crossings() {
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) {
       RootIsolation<2> roots =
-          isolate_roots(tiled_[i], tiled_[j], sides_, limits("isolating crossings"), kernel_);
+          isolate_roots(tiled_[i], tiled_[j], sides_,
+                        limits("isolating crossings", Unresolved::Kind::Contact), kernel_);
       result_.statistics.root_boxes += roots.boxes;
       const int first = static_cast<int>(partition_->crossings.size());
       for (const Box<2>& root : roots.roots) {
@@ -296,8 +304,9 @@ void Encaser::report_concurrency() {
 
 void Encaser::find_critical_regions() {
   for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
-    CriticalRegions found =
-        critical_regions(tiled_[c], c, sides_, limits("finding critical regions"), kernel_);
+    CriticalRegions found = critical_regions(
+        tiled_[c], c, sides_, limits("finding critical regions", Unresolved::Kind::SingularPoint),
+        kernel_);
     result_.statistics.critical_boxes += found.boxes;
     const int first = static_cast<int>(partition_->critical_regions.size());
     for (int& token : found.tokens)

@@ -90,7 +90,7 @@ struct SubdivisionLimits {
   int max_boxes = 200000;
   /// Asked now and then; true ends the subdivision, and what is open stays unresolved.
   std::function<bool()> stop;
-  double smallest = 0x1p-44;  ///< boxes are halved down to this part of the root's widths
+  double smallest = 0x1p-40;  ///< boxes are halved down to this part of the root's widths
   /// Below this part nets are kept sharp to 2^-40 of their size: small boxes are where curves touch
   /// or nearly touch, and only the last digits tell them apart.
   double sharp_below = 0x1p-16;
