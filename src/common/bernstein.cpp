@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/vectorized.hpp"
-
 namespace encase {
 namespace {
 
@@ -33,7 +31,7 @@ constexpr double kUp = 1 + 0x1p-50;  // outweighs the roundings of the sum it mu
 
 // (Extremes are taken in eight independent lanes: one chain of comparisons cannot be vectorised.)
 
-ENCASE_VECTORIZED double largest(const double* b, int count) {
+double largest(const double* b, int count) {
   double lane[8] = {};
   int i = 0;
   for (; i + 8 <= count; i += 8)
@@ -45,7 +43,7 @@ ENCASE_VECTORIZED double largest(const double* b, int count) {
   return *std::max_element(lane, lane + 8);
 }
 
-ENCASE_VECTORIZED void extremes(const double* b, int count, double* lowest, double* highest) {
+void extremes(const double* b, int count, double* lowest, double* highest) {
   double lo[8], hi[8];
   for (int k = 0; k < 8; ++k) lo[k] = hi[k] = b[0];
   int i = 0;
@@ -65,7 +63,7 @@ ENCASE_VECTORIZED void extremes(const double* b, int count, double* lowest, doub
 /// One block of de Casteljau's algorithm at 1/2: t, of n + 1 rows of `inner`, becomes the upper
 /// half, l the lower. After step r, row j of t holds the j-th point of the r-th generation, and the
 /// last rows hold the upper half's points already.
-ENCASE_VECTORIZED void halve_block(double* t, double* l, int n, int inner) {
+void halve_block(double* t, double* l, int n, int inner) {
   for (int i = 0; i < inner; ++i) l[i] = t[i];
   for (int r = 1; r <= n; ++r) {
     const int end = (n - r + 1) * inner;
@@ -74,13 +72,12 @@ ENCASE_VECTORIZED void halve_block(double* t, double* l, int n, int inner) {
   }
 }
 
-ENCASE_VECTORIZED void differences(const double* from, double* to, int count, int step,
-                                   double factor) {
+void differences(const double* from, double* to, int count, int step, double factor) {
   for (int j = 0; j < count; ++j) to[j] = factor * (from[j + step] - from[j]);
 }
 
-ENCASE_VECTORIZED void weighted_sum(double alpha, const double* f, double beta, const double* g,
-                                    double* to, int count) {
+void weighted_sum(double alpha, const double* f, double beta, const double* g, double* to,
+                  int count) {
   for (int i = 0; i < count; ++i) to[i] = alpha * f[i] + beta * g[i];
 }
 

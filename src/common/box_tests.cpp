@@ -264,7 +264,7 @@ bool no_relevant_critical_point(const Bernstein<2>& net, Effort effort) {
       std::max(std::max(xx.lo * yy.lo, xx.lo * yy.hi), std::max(xx.hi * yy.lo, xx.hi * yy.hi));
   const double mixed = xy.lo > 0 ? xy.lo : xy.hi < 0 ? -xy.hi : 0.0;
   const double square = mixed * mixed * (1 - 0x1p-40);
-  const bool saddle = product <= 0 ? square > 0 || product * (1 - 0x1p-40) < -0x1p-900
+  const bool saddle = product <= 0 ? square > 0x1p-900 || product * (1 - 0x1p-40) < -0x1p-900
                                    : product * kUp + 0x1p-900 < square;
   return saddle || (effort == Effort::Thorough && flows(net));
 }

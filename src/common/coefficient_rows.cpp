@@ -1,49 +1,37 @@
 // SPDX-License-Identifier: MIT
 #include "common/coefficient_rows.hpp"
 
-#include <cstdint>
 #include <cstring>
 
-#include "common/vectorized.hpp"
 #include "encase/polynomial.hpp"
 
-namespace encase {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "common/coefficient_rows.cpp"
+#include <hwy/foreach_target.h>
 
-// Eight doubles that the compiler maps to what registers there are. All clones of a function do the
-// same operations in the same order.
-using Lanes = double __attribute__((vector_size(64)));
-using LaneBits = std::int64_t __attribute__((vector_size(64)));
-using Quarter = double __attribute__((vector_size(16)));
-#define ENCASE_INLINE inline __attribute__((always_inline))
+#include "common/simd_rows-inl.hpp"
 
-ENCASE_INLINE void load(const double* lane, Lanes& lanes) {
-  __builtin_memcpy(&lanes, lane, sizeof lanes);
+HWY_BEFORE_NAMESPACE();
+namespace encase::HWY_NAMESPACE {
+
+/// Lane by lane: x where bit is 1, else 1.
+HWY_INLINE Row where(const double* bits, double x) {
+  const Row factor = Row::all(x), one = Row::all(1), bit = Row::load(bits);
+  Row r;
+  for (int k = 0; k < kParts; ++k)
+    r.part[k] = hn::IfThenElse(hn::Eq(bit.part[k], one.part[k]), factor.part[k], one.part[k]);
+  return r;
 }
 
-/// y^0, ..., y^7: at most j - 1 roundings in y^j.
-ENCASE_INLINE void set_powers(double y, Lanes& powers) {
-  const double y2 = y * y, y4 = y2 * y2;
-  const Lanes one = {1, y, 1, y, 1, y, 1, y}, two = {1, 1, y2, y2, 1, 1, y2, y2},
-              four = {1, 1, 1, 1, y4, y4, y4, y4};
-  powers = one * two * four;
-}
-
-/// first = 0, a_0, ..., a_6.
-ENCASE_INLINE void move_up(const Lanes& a, Lanes& moved) {
-  moved = __builtin_shufflevector(a, Lanes{}, 8, 0, 1, 2, 3, 4, 5, 6);
-}
-
-/// sums[0], sums[1] = the sum of the lanes of a and of b; three additions each.
-ENCASE_INLINE void add_lanes(const Lanes& a, const Lanes& b, double* sums) {
-  const Lanes pairs = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14) +
-                      __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Quarter low =
-      __builtin_shufflevector(pairs, pairs, 0, 1) + __builtin_shufflevector(pairs, pairs, 4, 5);
-  const Quarter high =
-      __builtin_shufflevector(pairs, pairs, 2, 3) + __builtin_shufflevector(pairs, pairs, 6, 7);
-  const Quarter total = low + high;
-  __builtin_memcpy(sums, &total, sizeof total);
+/// y^(j - less) in lane j (1 where that is negative): at most j - 1 roundings.
+template <int less>
+HWY_INLINE Row powers(double y, double y2, double y4) {
+  // The binary digits of j - less.
+  HWY_ALIGN static constexpr double kBits[3][3][8] = {
+      {{0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}},
+      {{0, 0, 1, 0, 1, 0, 1, 0}, {0, 0, 0, 1, 1, 0, 0, 1}, {0, 0, 0, 0, 0, 1, 1, 1}},
+      {{0, 0, 0, 1, 0, 1, 0, 1}, {0, 0, 0, 0, 1, 1, 0, 0}, {0, 0, 0, 0, 0, 0, 1, 1}}};
+  return where(kBits[less][0], y) * where(kBits[less][1], y2) * where(kBits[less][2], y4);
 }
 
 /// The derivatives up to `order` at (x, y): value; x, y; xx, xy, yy. Block after block of columns
@@ -52,80 +40,88 @@ ENCASE_INLINE void add_lanes(const Lanes& a, const Lanes& b, double* sums) {
 /// Roundings of c x^i y^j, i + j <= n: i - 1 in the power and 1 in the product, at most n + 1 - i
 /// sums over the rows, j - 1 in the power of y, 1 in the product, n / 8 + 1 sums over the blocks, 3
 /// over the lanes. The powers of y in a block are those of the block before times y^8.
-template <int order, bool absolute>
-ENCASE_INLINE void evaluate(const CoefficientRows::Block* blocks, int degree, const Point<2>& at,
-                            double* result) {
+template <int order, bool absolute_values>
+HWY_INLINE void evaluate(const double* blocks, int degree, double x, double y, double* result) {
   const int rows = degree + 1, width = rows / 8 + (rows % 8 != 0);
-  const double x = at[0], y = at[1];
   double power[3][kMaxDegree + 1];  // of x, and its derivatives
   power[0][0] = 1;
   power[1][0] = power[2][0] = 0;
   double number = 1;
   for (int i = 1; i < rows; ++i, number += 1) {
     power[0][i] = power[0][i - 1] * x;
-    if (order >= 1) power[1][i] = number * power[0][i - 1];
-    if (order >= 2) power[2][i] = number * power[1][i - 1];
+    if constexpr (order >= 1) power[1][i] = number * power[0][i - 1];
+    if constexpr (order >= 2) power[2][i] = number * power[1][i - 1];
   }
-  Lanes exponent = {0, 1, 2, 3, 4, 5, 6, 7};
-  Lanes y_power, y_first = {}, y_second = {};
-  set_powers(y, y_power);
-  if (order >= 1) {
-    move_up(y_power, y_first);
-    y_first *= exponent;
-  }
-  if (order >= 2) {
-    move_up(y_first, y_second);
-    y_second *= exponent;
-  }
+  HWY_ALIGN static constexpr double kLane[8] = {0, 1, 2, 3, 4, 5, 6, 7};
   const double y2 = y * y, y4 = y2 * y2, y6 = y4 * y2, y7 = y6 * y, y8 = y4 * y4;
-  Lanes value = {}, dx = {}, dy = {}, dxx = {}, dxy = {}, dyy = {};
+  const Row zero = Row::all(0), one = Row::all(1);
+  Row exponent = Row::load(kLane);
+  Row y_power = powers<0>(y, y2, y4), y_first = zero, y_second = zero;
+  if constexpr (order >= 1) y_first = exponent * powers<1>(y, y2, y4);
+  if constexpr (order >= 2) y_second = exponent * (exponent - one) * powers<2>(y, y2, y4);
+  Row value = zero, dx = zero, dy = zero, dxx = zero, dxy = zero, dyy = zero;
   for (int column = 0; column < width; ++column) {
-    Lanes sum = {}, sum_x = {}, sum_xx = {};
-    const CoefficientRows::Block* block = blocks + column;
-    for (int i = 0; i < rows - 8 * column; ++i, block += width) {
-      Lanes c;
-      load(block->lane, c);
-      if (absolute) c = (Lanes)((LaneBits)c & INT64_MAX);
-      sum += c * power[0][i];
-      if (order >= 1) sum_x += c * power[1][i];
-      if (order >= 2) sum_xx += c * power[2][i];
+    const double* block = blocks + 8 * column;
+    Row sum = zero, sum_x = zero, sum_xx = zero;
+    for (int i = 0; i < rows - 8 * column; ++i, block += 8 * width) {
+      Row c = Row::load(block);
+      if constexpr (absolute_values) c = absolute(c);
+      sum = sum + c * Row::all(power[0][i]);
+      if constexpr (order >= 1) sum_x = sum_x + c * Row::all(power[1][i]);
+      if constexpr (order >= 2) sum_xx = sum_xx + c * Row::all(power[2][i]);
     }
-    value += sum * y_power;
-    if (order >= 1) {
-      dx += sum_x * y_power;
-      dy += sum * y_first;
+    value = value + sum * y_power;
+    if constexpr (order >= 1) {
+      dx = dx + sum_x * y_power;
+      dy = dy + sum * y_first;
     }
-    if (order >= 2) {
-      dxx += sum_xx * y_power;
-      dxy += sum_x * y_first;
-      dyy += sum * y_second;
+    if constexpr (order >= 2) {
+      dxx = dxx + sum_xx * y_power;
+      dxy = dxy + sum_x * y_first;
+      dyy = dyy + sum * y_second;
     }
-    exponent += 8.0;
-    if (order >= 1) y_first = exponent * (y_power * y7);
-    if (order >= 2) y_second = exponent * (exponent - 1.0) * (y_power * y6);
-    y_power *= y8;
+    if (column + 1 == width) break;
+    exponent = exponent + Row::all(8);
+    if constexpr (order >= 1) y_first = exponent * (y_power * Row::all(y7));
+    if constexpr (order >= 2) y_second = exponent * (exponent - one) * (y_power * Row::all(y6));
+    y_power = y_power * Row::all(y8);
   }
-  add_lanes(value, dx, result);
-  if (order >= 1) add_lanes(dy, dxx, result + 2);
-  if (order >= 2) add_lanes(dxy, dyy, result + 4);
+  result[0] = sum_of_lanes(value);
+  if constexpr (order >= 1) {
+    result[1] = sum_of_lanes(dx);
+    result[2] = sum_of_lanes(dy);
+  }
+  if constexpr (order >= 2) {
+    result[3] = sum_of_lanes(dxx);
+    result[4] = sum_of_lanes(dxy);
+    result[5] = sum_of_lanes(dyy);
+  }
 }
 
-ENCASE_VECTORIZED void find_value(const CoefficientRows::Block* blocks, int degree,
-                                  const Point<2>& at, double* result) {
-  evaluate<0, false>(blocks, degree, at, result);
+void find_value(const double* blocks, int degree, double x, double y, double* result) {
+  evaluate<0, false>(blocks, degree, x, y, result);
 }
-ENCASE_VECTORIZED void find_absolute(const CoefficientRows::Block* blocks, int degree,
-                                     const Point<2>& at, double* result) {
-  evaluate<0, true>(blocks, degree, at, result);
+void find_absolute(const double* blocks, int degree, double x, double y, double* result) {
+  evaluate<0, true>(blocks, degree, x, y, result);
 }
-ENCASE_VECTORIZED void find_gradient(const CoefficientRows::Block* blocks, int degree,
-                                     const Point<2>& at, double* result) {
-  evaluate<1, false>(blocks, degree, at, result);
+void find_gradient(const double* blocks, int degree, double x, double y, double* result) {
+  evaluate<1, false>(blocks, degree, x, y, result);
 }
-ENCASE_VECTORIZED void find_jet(const CoefficientRows::Block* blocks, int degree,
-                                const Point<2>& at, double* result) {
-  evaluate<2, false>(blocks, degree, at, result);
+void find_jet(const double* blocks, int degree, double x, double y, double* result) {
+  evaluate<2, false>(blocks, degree, x, y, result);
 }
+
+}  // namespace encase::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace encase {
+namespace {
+
+HWY_EXPORT(find_value);
+HWY_EXPORT(find_absolute);
+HWY_EXPORT(find_gradient);
+HWY_EXPORT(find_jet);
 
 }  // namespace
 
@@ -137,27 +133,28 @@ CoefficientRows::CoefficientRows(const std::vector<double>& dense, int degree) :
 }
 
 double CoefficientRows::value(const Point<2>& at) const {
-  double result[2];
-  find_value(blocks_.data(), degree_, at, result);
-  return result[0];
+  double result;
+  HWY_DYNAMIC_DISPATCH(find_value)(blocks_[0].lane, degree_, at[0], at[1], &result);
+  return result;
 }
 
 double CoefficientRows::absolute(const Point<2>& at) const {
-  double result[2];
-  find_absolute(blocks_.data(), degree_, at, result);
-  return result[0];
+  double result;
+  HWY_DYNAMIC_DISPATCH(find_absolute)(blocks_[0].lane, degree_, at[0], at[1], &result);
+  return result;
 }
 
 Jet CoefficientRows::value_and_gradient(const Point<2>& at) const {
-  double result[4];
-  find_gradient(blocks_.data(), degree_, at, result);
+  double result[3];
+  HWY_DYNAMIC_DISPATCH(find_gradient)(blocks_[0].lane, degree_, at[0], at[1], result);
   return {result[0], {result[1], result[2]}, 0, 0, 0};
 }
 
 Jet CoefficientRows::jet(const Point<2>& at) const {
   double result[6];
-  find_jet(blocks_.data(), degree_, at, result);
+  HWY_DYNAMIC_DISPATCH(find_jet)(blocks_[0].lane, degree_, at[0], at[1], result);
   return {result[0], {result[1], result[2]}, result[3], result[4], result[5]};
 }
 
 }  // namespace encase
+#endif

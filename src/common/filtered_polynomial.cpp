@@ -11,7 +11,6 @@
 #include "common/dyadic.hpp"
 #include "common/interval.hpp"
 #include "common/mpfr_number.hpp"
-#include "common/vectorized.hpp"
 #include "encase/encasement.hpp"
 
 // Every quantity below is a sum of products of coefficients and coordinates. If each product passes
@@ -131,7 +130,7 @@ Number make_number(int bits) {
 }
 
 /// r += a * x, entry by entry.
-ENCASE_VECTORIZED void add_multiple(double* r, double a, const double* x, int count) {
+void add_multiple(double* r, double a, const double* x, int count) {
   for (int i = 0; i < count; ++i) r[i] += a * x[i];
 }
 template <class Number>
@@ -302,7 +301,7 @@ const std::vector<Number>& FilteredPolynomial<D>::coefficients_in(int bits) cons
 namespace {
 
 /// r = r * x + c, entry by entry.
-ENCASE_VECTORIZED void horner_step(double* r, double x, const double* c, int count) {
+void horner_step(double* r, double x, const double* c, int count) {
   for (int i = 0; i < count; ++i) r[i] = r[i] * x + c[i];
 }
 template <class Number>

@@ -301,8 +301,9 @@ HWY_INLINE bool combine_gradient(const Net& net, double magnitude, const double*
     extent.keep_lanes(N);
     const Extremes e = extent.extremes();
     const double alpha = y[k][0] < 0 ? -y[k][0] : y[k][0], beta = y[k][1] < 0 ? -y[k][1] : y[k][1];
-    // Weights, products and sums round; derivatives are at most 2 M.
-    const double rounding = 16 * 0x1p-53 * 2 * magnitude * (alpha + beta);
+    // Weights, products and sums round; derivatives are at most 2 M. (Infinite where one of the
+    // coefficients overflows.)
+    const double rounding = (4 * magnitude * (alpha + beta)) * (8 * 0x1p-53);
     const double r = (alpha * radius[0] + beta * radius[1] + rounding) * (1 + 0x1p-40) + 0x1p-1000;
     if (e.lo > r || e.hi < -r) return true;
   }
@@ -710,7 +711,7 @@ bool no_extremum(const Patch& patch, Sign sign) {
       std::max(std::max(rr.lo * ll.lo, rr.lo * ll.hi), std::max(rr.hi * ll.lo, rr.hi * ll.hi));
   const double least_mixed = rl.lo > 0 ? rl.lo : rl.hi < 0 ? -rl.hi : 0.0;
   const double square = least_mixed * least_mixed * (1 - 0x1p-40);
-  return product <= 0 ? square > 0 || product * (1 - 0x1p-40) < -0x1p-900
+  return product <= 0 ? square > 0x1p-900 || product * (1 - 0x1p-40) < -0x1p-900
                       : product * kUp + 0x1p-900 < square;
 }
 

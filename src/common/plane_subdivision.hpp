@@ -18,6 +18,12 @@ inline int wider_axis(const Box<2>& box) {
   return box.width(1) > box.width(0) ? cover::kSplitY : cover::kSplitX;
 }
 
+/// Whether the centre of the box is a double: then its coordinates, and those of its halves, are
+/// what patches have.
+inline bool halves_exactly(const Box<2>& box) {
+  return centered(box.lo[0], box.hi[0]).exact && centered(box.lo[1], box.hi[1]).exact;
+}
+
 /// The subdivision of a box of the plane, with the patches of N polynomials on the boxes. Of
 /// several polynomials the common zeros are sought: a box on which one keeps a sign is excluded.
 ///
@@ -245,9 +251,9 @@ bool PlaneSubdivision<N>::outside(Node& node) const {
       most += std::max(a, b);
       magnitude += std::max(std::fabs(a), std::fabs(b));
     }
-    // Six roundings; and rational coefficients are within an ulp of the doubles, also below the
-    // normal range.
-    double slack = 0x1p-49 * magnitude;
+    // Six roundings, and what underflows; and rational coefficients are within an ulp of the
+    // doubles, also below the normal range.
+    double slack = 0x1p-49 * magnitude + 0x1p-1000;
     if (line.rational)
       for (int i = 0; i < 2; ++i)
         slack += 0x1p-1000 * (1 + std::max(std::fabs(node.box.lo[i]), std::fabs(node.box.hi[i])));
@@ -274,6 +280,8 @@ template <int N>
 bool PlaneSubdivision<N>::provide_patches(Node& node) {
   for (int i = 0; i < N; ++i) {
     if (node.has_patches && (node.expanded_at[i] + 2 > node.level || !coarse(node, i))) continue;
+    // A fresh patch whose chart is larger than the box does not go with one from halving.
+    if (node.has_patches && N > 1 && !halves_exactly(node.box)) continue;
     if (!provide_patch(node, i)) return false;
   }
   for (int i = 1; i < N; ++i)

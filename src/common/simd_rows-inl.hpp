@@ -82,11 +82,26 @@ HWY_INLINE double greatest_lane(const Row& a) {
   for (int k = 1; k < kParts; ++k) v = hn::Max(v, a.part[k]);
   return hn::GetLane(hn::MaxOfLanes(Lanes(), v));
 }
-/// The sum of the lanes, in one order for all instruction sets.
+/// The sum of the lanes, in one order for all instruction sets: lanes 4 apart, then 2, then 1.
 HWY_INLINE double sum_of_lanes(const Row& a) {
-  HWY_ALIGN double x[8];
-  a.store(x);
-  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+#if HWY_TARGET == HWY_SCALAR
+  const auto x = [&](int lane) { return hn::GetLane(a.part[lane]); };
+  return ((x(0) + x(4)) + (x(2) + x(6))) + ((x(1) + x(5)) + (x(3) + x(7)));
+#else
+  const hn::FixedTag<double, 2> two;
+#if HWY_MAX_BYTES >= 32
+  const hn::FixedTag<double, 4> four;
+#if HWY_MAX_BYTES >= 64
+  const auto half = hn::Add(hn::LowerHalf(four, a.part[0]), hn::UpperHalf(four, a.part[0]));
+#else
+  const auto half = hn::Add(a.part[0], a.part[1]);
+#endif
+  const auto pair = hn::Add(hn::LowerHalf(two, half), hn::UpperHalf(two, half));
+#else
+  const auto pair = hn::Add(hn::Add(a.part[0], a.part[2]), hn::Add(a.part[1], a.part[3]));
+#endif
+  return hn::GetLane(pair) + hn::GetLane(hn::Reverse(two, pair));
+#endif
 }
 
 /// x * y = product + error exactly, where nothing underflows or overflows.

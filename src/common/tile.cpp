@@ -219,7 +219,8 @@ Point<2> reach_of(const Tile& tile) {
 void claim_nothing(Tile* tile) {
   for (auto& row : tile->a) row.fill(0.0);
   tile->sum = tile->slope = tile->bend = 0;
-  tile->error = tile->slope_error = tile->bend_error = std::numeric_limits<double>::infinity();
+  tile->error = tile->slope_error = tile->bend_error = tile->value_error =
+      std::numeric_limits<double>::infinity();
 }
 
 /// At least kReach^k, for k up to 60.
