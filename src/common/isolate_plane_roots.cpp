@@ -139,11 +139,12 @@ std::optional<Box<2>> PlaneRoots::tight_box_at(const Tiles& tiles, const Box<2>&
                                                const Approximation& a, Point<2>* step) const {
   const Matrix<2>& j = a.jacobian;
   const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+  if (!(std::fabs(determinant) > 0x1p-900)) return std::nullopt;  // its products may underflow
   const Matrix<2> y{{{j[1][1] / determinant, -j[0][1] / determinant},
                      {-j[1][0] / determinant, j[0][0] / determinant}}};
   Point<2>& d = *step;
   d = {0, 0};
-  Point<2> error{0, 0}, reach;
+  Point<2> error{0x1p-1020, 0x1p-1020}, reach;  // what underflows
   for (int i = 0; i < 2; ++i) {
     const double value = system_[i]->value(a.x);
     const double bound = tiles[i]->value_error + 0x1p-52 * std::fabs(value);
@@ -157,7 +158,9 @@ std::optional<Box<2>> PlaneRoots::tight_box_at(const Tiles& tiles, const Box<2>&
     reach[k] = 2 * std::fabs(d[k]) + 4 * error[k] + 8 * ulp(a.x[k]);
     // What is known of the tiles holds on their rectangles.
     for (const Tile* tile : tiles)
-      if (!(std::fabs(a.x[k] - tile->center[k]) + reach[k] <= tile->half[k])) return std::nullopt;
+      if (!(std::fabs(a.x[k] - tile->center[k]) + reach[k] <= tile->half[k] &&
+            std::fabs(a.before[k] - tile->center[k]) <= tile->half[k]))
+        return std::nullopt;
     const double half = std::min(tiles[0]->half[k], tiles[1]->half[k]);
     far = std::max(far, (std::fabs(a.x[k] - a.before[k]) + reach[k]) / half * kUp);
   }
@@ -175,7 +178,7 @@ std::optional<Box<2>> PlaneRoots::tight_box_at(const Tiles& tiles, const Box<2>&
     image[k] = error[k];
     for (int m = 0; m < 2; ++m) {
       double e = 0x1p-48 * (std::fabs(y[k][0] * j[0][m]) + std::fabs(y[k][1] * j[1][m]));
-      for (int i = 0; i < 2; ++i) e += std::fabs(y[k][i]) * spread[i] / tiles[i]->half[m] * kUp;
+      for (int i = 0; i < 2; ++i) e += std::fabs(y[k][i]) / tiles[i]->half[m] * spread[i] * kUp;
       // Y J0 is the identity but for the rounding of Y.
       e += 0x1p-50 * (std::fabs(j[0][0] * j[1][1]) + std::fabs(j[0][1] * j[1][0])) /
            std::fabs(determinant);
@@ -354,13 +357,16 @@ std::optional<int> PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf,
   return static_cast<int>(roots.size()) - 1;
 }
 
-/// The part of a box with given local coordinates, or a little more.
+/// The part of a box with given local coordinates, or a little more. (Neighbouring doubles may be
+/// far apart for a small box.)
 Box<2> part_of(const Box<2>& box, const Box<2>& local) {
   Box<2> part = box;
   for (int i = 0; i < 2; ++i) {
-    const double width = box.width(i);
-    part.lo[i] = std::max(box.lo[i], box.lo[i] + (0.5 * (local.lo[i] + 1) - 1e-9) * width);
-    part.hi[i] = std::min(box.hi[i], box.lo[i] + (0.5 * (local.hi[i] + 1) + 1e-9) * width);
+    const Centered chart = centered(box.lo[i], box.hi[i]);
+    const double lo = chart.center + (local.lo[i] - 1e-9) * chart.half;
+    const double hi = chart.center + (local.hi[i] + 1e-9) * chart.half;
+    part.lo[i] = std::max(box.lo[i], round_down(lo));
+    part.hi[i] = std::min(box.hi[i], round_up(hi));
   }
   return part;
 }
@@ -376,7 +382,11 @@ std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box
       zeros.lo[i] = std::max(-1.0, zeros.lo[i]);
       zeros.hi[i] = std::min(1.0, zeros.hi[i]);
     }
-    if (round == 0) *part = zeros;
+    if (round == 0) {
+      *part = zeros;
+      // Patches from halving have the box's coordinates, fresh ones those of its chart.
+      if (!halves_exactly(box)) return std::nullopt;
+    }
     // Where all zeros lie in a small part, a closer look at that part is worth its price.
     if (round == kCloserLooks || zeros.width(0) * zeros.width(1) > 4 * kSmallPart)
       return std::nullopt;
