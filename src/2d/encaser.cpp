@@ -259,11 +259,12 @@ void Encaser::isolate_crossings() {
                         limits("isolating crossings", Unresolved::Kind::Contact), kernel_);
       result_.statistics.root_boxes += roots.boxes;
       const int first = static_cast<int>(partition_->crossings.size());
-      for (const Box<2>& root : roots.roots) {
+      for (std::size_t k = 0; k < roots.roots.size(); ++k) {
         Crossing crossing;
         crossing.curves = {i, j};
-        crossing.box = root;
-        crossing.point = root.center();
+        crossing.box = roots.roots[k];
+        crossing.point = crossing.box.center();
+        crossing.rounded = roots.rounded[k];
         partition_->crossings.push_back(crossing);
       }
       for (int& token : roots.tokens)

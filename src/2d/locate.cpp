@@ -98,6 +98,7 @@ void locate_crossings(Encasement& encasement, Kernel& kernel) {
         if (where && crossing.box.contains(box)) {
           crossing.box = box;
           crossing.point = box.center();
+          crossing.rounded = false;
         }
       }
       if (where == Sign::Positive) {

@@ -37,6 +37,7 @@ class PlaneRoots {
   }
 
   std::vector<Box<2>> roots;
+  std::vector<bool> rounded;  // as in RootIsolation
 
   using Tiles = std::array<const Tile*, 2>;
 
@@ -62,9 +63,15 @@ class PlaneRoots {
                                   const std::array<double, 2>* values) const;
   std::optional<Approximation> newton(const Tiles& tiles, const Box<2>& leaf,
                                       const Box<2>& zeros) const;
-  std::optional<Box<2>> tight_box(const Tiles& tiles, const Box<2>& around, Approximation a) const;
-  std::optional<Box<2>> tight_box_at(const Tiles& tiles, const Box<2>& around,
-                                     const Approximation& a, Point<2>* d) const;
+  /// A box around one zero; `rounded`: its centre is proved to be the zero, correctly rounded.
+  struct Enclosure {
+    Box<2> box;
+    bool rounded = false;
+  };
+  std::optional<Enclosure> tight_box(const Tiles& tiles, const Box<2>& around,
+                                     Approximation a) const;
+  std::optional<Enclosure> tight_box_at(const Tiles& tiles, const Box<2>& around,
+                                        const Approximation& a, Point<2>* d) const;
   std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
   std::optional<Box<2>> enclose(const Tiles& tiles, const Box<2>& around, const Contraction<2>& c,
                                 Point<2> x) const;
@@ -135,8 +142,10 @@ std::optional<PlaneRoots::Approximation> PlaneRoots::newton(const Tiles& tiles, 
 /// with Y the inverse of the Jacobian J0 known at a point nearby, and |J - J0| bounded on
 /// X = a.x +- reach, every zero z in X has |z - (a.x - Y F(a.x))| <= E reach, E = |I - Y J|; if
 /// that is inside X there is one. (docs/error-bounds.md, section 5.)
-std::optional<Box<2>> PlaneRoots::tight_box_at(const Tiles& tiles, const Box<2>& around,
-                                               const Approximation& a, Point<2>* step) const {
+std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles,
+                                                              const Box<2>& around,
+                                                              const Approximation& a,
+                                                              Point<2>* step) const {
   const Matrix<2>& j = a.jacobian;
   const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
   if (!(std::fabs(determinant) > 0x1p-900)) return std::nullopt;  // its products may underflow
@@ -187,9 +196,16 @@ std::optional<Box<2>> PlaneRoots::tight_box_at(const Tiles& tiles, const Box<2>&
     if (!((std::fabs(d[k]) + image[k]) * kUp < reach[k])) return std::nullopt;
   }
   Box<2> box;
+  bool nearest = true;
   for (int k = 0; k < 2; ++k) {
     // Around a double, with multiples of some ulps, and room for a checker.
     const double x = a.x[k] - d[k];
+    // What the difference lost (Knuth), and how far the zero may be from the exact one: less than
+    // half the distance to the next double?
+    const double back = x - a.x[k];
+    const double lost = (a.x[k] - (x - back)) + (-d[k] - back);
+    const double gap = std::fabs(x) - std::nextafter(std::fabs(x), 0.0);
+    nearest = nearest && (std::fabs(lost) + image[k]) * kUp < 0.5 * gap;
     const double wanted = std::max(16 * (image[k] + ulp(x)),
                                    16 * ulp(std::max(std::fabs(x), 0x1p-20 * around.width(k))));
     const double unit = 4 * ulp(std::fabs(x) + wanted);
@@ -198,18 +214,18 @@ std::optional<Box<2>> PlaneRoots::tight_box_at(const Tiles& tiles, const Box<2>&
     box.hi[k] = x + r;
     if (!(around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k])) return std::nullopt;
   }
-  return box;
+  return Enclosure{box, nearest};
 }
 
 /// The same, with the Jacobian from closer by where that makes the box narrower.
-std::optional<Box<2>> PlaneRoots::tight_box(const Tiles& tiles, const Box<2>& around,
-                                            Approximation a) const {
+std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box(const Tiles& tiles, const Box<2>& around,
+                                                           Approximation a) const {
   for (int round = 0;; ++round) {
     Point<2> d;
-    const auto box = tight_box_at(tiles, around, a, &d);
-    if (round == 2 || (box && narrow(*box))) return box;
+    const auto enclosure = tight_box_at(tiles, around, a, &d);
+    if (round == 2 || (enclosure && enclosure->rounded && narrow(enclosure->box))) return enclosure;
     const auto step = newton_step(tiles, a.x, nullptr);
-    if (!step) return box;
+    if (!step) return enclosure;
     a = {{a.x[0] - d[0], a.x[1] - d[1]}, a.x, step->jacobian};
   }
 }
@@ -342,18 +358,22 @@ std::optional<int> PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf,
     if (!wider) return std::nullopt;
     valid = &*wider;
   }
-  std::optional<Box<2>> root;
+  std::optional<Enclosure> root;
   if (kernel_.start_bits <= Kernel::kDoubleBits)
     root = tight_box(node_tiles, around, *approximation);
-  if (!root || !narrow(*root)) root = enclose(tiles, around, *valid, x);
-  if (!root) return std::nullopt;
+  if (!root || !narrow(root->box)) {
+    const auto box = enclose(tiles, around, *valid, x);
+    if (!box) return std::nullopt;
+    root = Enclosure{*box, false};
+  }
   for (std::size_t k = 0; k < roots.size(); ++k) {
-    if (!roots[k].meets(*root)) continue;
+    if (!roots[k].meets(root->box)) continue;
     // Both boxes hold a zero and `around` at most one: the same.
     if (around.contains(roots[k])) return static_cast<int>(k);
     return std::nullopt;
   }
-  roots.push_back(*root);
+  roots.push_back(root->box);
+  rounded.push_back(root->rounded);
   return static_cast<int>(roots.size()) - 1;
 }
 
@@ -422,6 +442,7 @@ RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
   result.tokens = subdivision.run(visit);
   result.boxes = static_cast<int>(result.tokens.size());
   result.roots = std::move(roots.roots);
+  result.rounded = std::move(roots.rounded);
   if (subdivision.unresolved())
     result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
   return result;

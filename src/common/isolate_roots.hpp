@@ -16,6 +16,9 @@ struct RootIsolation {
   /// Pairwise disjoint boxes; each holds exactly one common zero, simple, in its interior. Some may
   /// lie outside the half spaces.
   std::vector<Box<D>> roots;
+  /// For every root whether it is proved that the box's centre is the zero, correctly rounded.
+  /// Empty if that is not asked.
+  std::vector<bool> rounded;
   /// The subdivided box and its tokens (encase/cover.hpp): a leaf is excluded, outside, unresolved,
   /// or names root k: a box that contains the leaf and roots[k] holds at most one common zero.
   Box<D> root_box;
