@@ -80,24 +80,12 @@ struct Extent {
 
 using Net = std::array<std::array<double, 8>, 8>;
 
-/// out[j] = row j of the transposed net; both N x N, lanes from N on repeat the last one.
+/// Stores the transpose of an N x N net; lanes from N on repeat the last one.
 template <int N>
-HWY_INLINE void transpose(const Net& from, Net* to) {
-#if HWY_TARGET == HWY_SCALAR
-  for (int j = 0; j < N; ++j)
-    for (int i = 0; i < 8; ++i) (*to)[j][i] = from[std::min(i, N - 1)][j];
-#else
-  const hn::FixedTag<double, 2> pair;
-  for (int i = 0; i < N; i += 2)
-    for (int j = 0; j < N; j += 2) {
-      const auto a = hn::Load(pair, &from[i][j]),
-                 b = hn::Load(pair, &from[std::min(i + 1, N - 1)][j]);
-      hn::Store(hn::InterleaveLower(pair, a, b), pair, &(*to)[j][i]);
-      if (j + 1 < N) hn::Store(hn::InterleaveUpper(pair, a, b), pair, &(*to)[j + 1][i]);
-    }
-  for (int j = 0; j < N; ++j)
-    for (int i = N; i < 8; ++i) (*to)[j][i] = (*to)[j][N - 1];
-#endif
+HWY_INLINE void store_transposed(Row* rows, Net* to) {
+  for (int i = N; i < 8; ++i) rows[i] = rows[N - 1];
+  transpose(rows);
+  for (int j = 0; j < N; ++j) rows[j].store((*to)[j].data());
 }
 
 /// Samples the polynomial of a tile on the grid of nodes (x0 + hx node_k, y0 + hy node_l) and turns
@@ -148,21 +136,19 @@ HWY_INLINE Extremes expand_net(const double* a, int degree, const double* xs, co
 /// De Casteljau's algorithm at 1/2 across the rows: sums of two, scaled at the end (powers of two
 /// change no rounding).
 template <int N>
-HWY_INLINE void halve_net(const Net& net, Net* lower, Net* upper, Extremes* extremes) {
-  Row t[N];
-  for (int i = 0; i < N; ++i) t[i] = Row::load(net[i].data());
+HWY_INLINE void halve_rows(Row* t, Row* lower, Row* upper, Extremes* extremes) {
   Extent low(t[0]), high(t[N - 1]);
-  t[0].store((*lower)[0].data());
-  t[N - 1].store((*upper)[N - 1].data());
+  lower[0] = t[0];
+  upper[N - 1] = t[N - 1];
   double scale = 1;
   for (int r = 1; r < N; ++r) {
     for (int j = 0; j < N - r; ++j) t[j] = t[j] + t[j + 1];
     scale *= 0.5;
-    const Row s = Row::all(scale), first = t[0] * s, last = t[N - 1 - r] * s;
-    low.add(first);
-    high.add(last);
-    first.store((*lower)[r].data());
-    last.store((*upper)[N - 1 - r].data());
+    const Row s = Row::all(scale);
+    lower[r] = t[0] * s;
+    upper[N - 1 - r] = t[N - 1 - r] * s;
+    low.add(lower[r]);
+    high.add(upper[N - 1 - r]);
   }
   extremes[0] = low.extremes();
   extremes[1] = high.extremes();
@@ -369,18 +355,25 @@ Extremes expand_patch(const double* a, int degree, const double* xs, const doubl
 
 void halve_patch(const Net& net, int count, bool along_lanes, double radius, Net* lower, Net* upper,
                  Extremes* extremes) {
-  HWY_ALIGN Net low, high, turned;
   with_count(count, [&]<int N>() HWY_ATTR {
-    if (along_lanes) transpose<N>(net, &turned);
-    halve_net<N>(along_lanes ? turned : net, &low, &high, extremes);
-    if (!(extremes[0].lo > radius || extremes[0].hi < -radius)) transpose<N>(low, lower);
-    if (!(extremes[1].lo > radius || extremes[1].hi < -radius)) transpose<N>(high, upper);
+    Row rows[8], low[8], high[8];
+    for (int i = 0; i < N; ++i) rows[i] = Row::load(net[i].data());
+    if (along_lanes) {
+      for (int i = N; i < 8; ++i) rows[i] = rows[N - 1];
+      transpose(rows);
+    }
+    halve_rows<N>(rows, low, high, extremes);
+    if (!(extremes[0].lo > radius || extremes[0].hi < -radius)) store_transposed<N>(low, lower);
+    if (!(extremes[1].lo > radius || extremes[1].hi < -radius)) store_transposed<N>(high, upper);
   });
 }
 
 void turn_net(int count, Net* net) {
-  HWY_ALIGN const Net from = *net;
-  with_count(count, [&]<int N>() HWY_ATTR { transpose<N>(from, net); });
+  with_count(count, [&]<int N>() HWY_ATTR {
+    Row rows[8];
+    for (int i = 0; i < N; ++i) rows[i] = Row::load((*net)[i].data());
+    store_transposed<N>(rows, net);
+  });
 }
 
 void precondition(const Net& f, const Net& g, int count, const Measure& of_f, const Measure& of_g,

@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include <utility>
+
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
@@ -101,6 +103,54 @@ HWY_INLINE double sum_of_lanes(const Row& a) {
   const auto pair = hn::Add(hn::Add(a.part[0], a.part[2]), hn::Add(a.part[1], a.part[3]));
 #endif
   return hn::GetLane(pair) + hn::GetLane(hn::Reverse(two, pair));
+#endif
+}
+
+/// Transposes a square of eight rows.
+HWY_INLINE void transpose(Row* r) {
+#if HWY_TARGET == HWY_SCALAR
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < i; ++j) std::swap(r[i].part[j], r[j].part[i]);
+#else
+  const Lanes d;
+  // Pairs of rows: lanes of even and of odd columns side by side.
+  Row even[4], odd[4];
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < kParts; ++k) {
+      even[i].part[k] = hn::InterleaveLower(d, r[2 * i].part[k], r[2 * i + 1].part[k]);
+      odd[i].part[k] = hn::InterleaveUpper(d, r[2 * i].part[k], r[2 * i + 1].part[k]);
+    }
+#if HWY_MAX_BYTES == 64
+  // Four blocks of two lanes in every row: their square is transposed likewise.
+  for (int c = 0; c < 2; ++c) {
+    const Row* from = c == 0 ? even : odd;
+    const Vector a = from[0].part[0], b = from[1].part[0], e = from[2].part[0], f = from[3].part[0];
+    const Vector ab_even = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a),
+                 ab_odd = hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a)),
+                 ef_even = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(f), e),
+                 ef_odd = hn::OddEvenBlocks(f, hn::SwapAdjacentBlocks(e));
+    r[c].part[0] = hn::ConcatLowerLower(d, ef_even, ab_even);
+    r[2 + c].part[0] = hn::ConcatLowerLower(d, ef_odd, ab_odd);
+    r[4 + c].part[0] = hn::ConcatUpperUpper(d, ef_even, ab_even);
+    r[6 + c].part[0] = hn::ConcatUpperUpper(d, ef_odd, ab_odd);
+  }
+#elif HWY_MAX_BYTES == 32
+  for (int c = 0; c < 2; ++c) {
+    const Row* from = c == 0 ? even : odd;
+    for (int k = 0; k < 2; ++k)      // columns 4 k to 4 k + 3
+      for (int h = 0; h < 2; ++h) {  // rows 4 h to 4 h + 3
+        const Vector a = from[2 * h].part[k], b = from[2 * h + 1].part[k];
+        r[4 * k + c].part[h] = hn::ConcatLowerLower(d, b, a);
+        r[4 * k + 2 + c].part[h] = hn::ConcatUpperUpper(d, b, a);
+      }
+  }
+#else
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) {
+      r[2 * k].part[i] = even[i].part[k];
+      r[2 * k + 1].part[i] = odd[i].part[k];
+    }
+#endif
 #endif
 }
 
