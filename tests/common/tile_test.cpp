@@ -110,7 +110,10 @@ TEST_P(TileOfDegree, IsAsCloseAsItSays) {
          {Box<2>{{-1, -1}, {1, 1}}, box_near(0.9, -1, 0.1, random),
           box_near(symmetric_random(random), symmetric_random(random), 1e-5, random),
           box_near(0.25, 3, 0x1p-45, random)}) {
+      // (Rational arithmetic takes long for high degrees.)
+      if (degree > 30 && (doubles || box.width(0) < 0.05)) continue;
       for (const int bits : {53, 106}) {
+        if (degree > 50 && bits > 53) continue;
         Tile tile;
         tiled.expand(box, bits, &tile);
         EXPECT_EQ(tile.bits, bits);
