@@ -213,6 +213,8 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
     box.lo[k] = x - r;
     box.hi[k] = x + r;
     if (!(around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k])) return std::nullopt;
+    // The ends round where x lies next to a power of two.
+    nearest = nearest && box.center()[k] == x;
   }
   return Enclosure{box, nearest};
 }
