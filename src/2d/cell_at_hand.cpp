@@ -61,7 +61,6 @@ CellAtHand::CellAtHand(Partition& partition) : partition_(partition) {
 
 void CellAtHand::take(const OpenCell& cell) {
   cell_ = &cell;
-  has_points_ = false;
   start_again();
   std::fill(slot_.begin(), slot_.end(), cell.zones.empty() ? -1 : 0);
   const auto& crossings = partition_.line_crossings;
@@ -73,18 +72,24 @@ void CellAtHand::take(const OpenCell& cell) {
     slot_[c] = static_cast<int>(whole_.curves.size());
     whole_.curves.push_back({static_cast<int>(c), 0, 0});
   }
-  for (const int id : cell.word) ++whole_.curves[slot_[crossings[id].curve]].ends;
   whole_.crossings = static_cast<int>(cell.crossings.size());
   crossings_.clear();
+  marks_.clear();
+  const int none = static_cast<int>(whole_.curves.size());
   for (const int id : cell.crossings) {
     const Crossing& crossing = partition_.crossings[id];
     // Curves that cross in the cell without crossing its boundary are present by their loops,
     // unless a splitting line has met the critical region: then they count for nothing.
     const std::array<int, 2> slots{slot_[crossing.curves[0]], slot_[crossing.curves[1]]};
     crossings_.push_back({crossing.box, slots});
-    for (const int s : slots)
-      if (s >= 0) ++whole_.curves[s].crossings;
+    Mark& mark = marks_.emplace_back(Mark{crossing.point, slots});
+    for (int& s : mark.slots)
+      if (s >= 0)
+        ++whole_.curves[s].crossings;
+      else
+        s = none;
   }
+  find_points();
   double square = 0;
   for (const Place& v : cell.vertices) {
     const double x = v.center[0] - cell.vertices[0].center[0],
@@ -94,17 +99,15 @@ void CellAtHand::take(const OpenCell& cell) {
   extent_ = std::sqrt(square);
 }
 
-const std::vector<CellAtHand::BoundaryPoint>& CellAtHand::points() {
-  if (has_points_) return points_;
-  has_points_ = true;
+void CellAtHand::find_points() {
   points_.clear();
-  for (Presence& p : parts_[0].curves = whole_.curves) p.ends = 0;
+  for (Presence& p : whole_.curves) p.ends = 0;
   for (const int id : cell_->word) {
     const int c = partition_.line_crossings[id].curve;
     const Partition::Spot& spot = partition_.spot(id);
-    points_.push_back({c, parts_[0].curves[slot_[c]].ends++, spot.at, spot.normal});
+    points_.push_back({c, whole_.curves[slot_[c]].ends++, spot.at, spot.normal});
+    marks_.push_back({spot.at, {slot_[c], slot_[c]}});
   }
-  return points_;
 }
 
 /// The branches in a part, or at least so many while it is not known where the line crosses the
@@ -198,26 +201,29 @@ bool CellAtHand::guess_chord(const Line& line, std::array<Point<2>, 2>* ends) {
   return count == 2;
 }
 
-/// Counts what is on either side; false if a crossing or a zone may be on the line.
-bool CellAtHand::guess_division(const Line& line) {
-  const auto& points = this->points();  // before the parts, which it uses
-  clear_parts();
-  for (const InnerCrossing& crossing : crossings_) {
-    const LineValue at = value_at(line, crossing.place);
-    if (!(std::fabs(at.value) > at.error)) return false;
-    clearance_ = std::min(clearance_, std::fabs(at.value));
-    Part& part = parts_[at.value > 0];
-    ++part.crossings;
-    for (const int s : crossing.slots)
-      if (s >= 0) ++part.curves[s].crossings;
+/// Counts what seems to be on either side.
+void CellAtHand::guess_division(const Line& line) {
+  const std::size_t curves = whole_.curves.size(), crossings = crossings_.size();
+  Part &negative = parts_[0], &positive = parts_[1];
+  for (Part& part : parts_) part.curves = whole_.curves;
+  positive.curves.emplace_back();
+  for (Presence& p : positive.curves) p.ends = p.crossings = 0;
+  positive.crossings = 0;
+  for (std::size_t i = 0; i < crossings; ++i) {
+    const double h = height(line, marks_[i].at);
+    clearance_ = std::min(clearance_, std::fabs(h));
+    const int above = h > 0;
+    positive.crossings += above;
+    for (const int s : marks_[i].slots) positive.curves[s].crossings += above;
   }
-  for (const int id : cell_->zones) {
-    const LineValue at = value_at(line, partition_.zones[id].box);
-    if (!(std::fabs(at.value) > at.error)) return false;
+  for (std::size_t i = crossings; i < marks_.size(); ++i)
+    positive.curves[marks_[i].slots[0]].ends += height(line, marks_[i].at) > 0;
+  positive.curves.pop_back();
+  negative.crossings = whole_.crossings - positive.crossings;
+  for (std::size_t s = 0; s < curves; ++s) {
+    negative.curves[s].ends -= positive.curves[s].ends;
+    negative.curves[s].crossings -= positive.curves[s].crossings;
   }
-  for (const BoundaryPoint& point : points)
-    ++parts_[height(line, point.at) > 0].curves[slot_[point.curve]].ends;
-  return true;
 }
 
 /// Adds the roots that the curves seem to have on a chord; false once the score reaches the limit.
@@ -242,7 +248,8 @@ bool CellAtHand::weigh(double limit, Proposal* proposal) {
   if (!(square > 1e-200 && square < 1e200) || !std::isfinite(line.offset)) return false;
   clearance_ = HUGE_VAL;
   std::array<Point<2>, 2> ends;
-  if (!guess_chord(line, &ends) || !guess_division(line)) return false;
+  if (!guess_chord(line, &ends)) return false;
+  guess_division(line);
   set_slivers(line, clearance_);
   proposal->sampled = score() < limit && guess_roots(ends, limit);
   proposal->score = score();

@@ -41,7 +41,7 @@ class CellAtHand {
     Point<2> at;
     Point<2> normal;  ///< unit gradient
   };
-  const std::vector<BoundaryPoint>& points();
+  const std::vector<BoundaryPoint>& points() const { return points_; }
 
   /// The cells to be expected of the whole cell.
   double expected_cells() const { return expected_cells(whole_); }
@@ -75,6 +75,10 @@ class CellAtHand {
     Place place;
     std::array<int, 2> slots;  // of its curves
   };
+  struct Mark {
+    Point<2> at;
+    std::array<int, 2> slots;  // of its curves; the one past the last for none
+  };
   struct Proposal {
     Line line;
     double score;  ///< at least so much, if the values used do not deceive
@@ -86,9 +90,10 @@ class CellAtHand {
   static double expected_cells(const Part& part);
   static int least_cells(const Part& part);
   void clear_parts();
+  void find_points();
   double score() const;
   bool guess_chord(const Line& line, std::array<Point<2>, 2>* ends);
-  bool guess_division(const Line& line);
+  void guess_division(const Line& line);
   bool guess_roots(const std::array<Point<2>, 2>& ends, double limit);
   bool weigh(double limit, Proposal* proposal);
   void set_slivers(const Line& line, double clearance);
@@ -106,11 +111,11 @@ class CellAtHand {
   std::array<Part, 2> parts_;
   std::vector<int> slot_;  // of every curve, among those present; -1 for others
   std::vector<InnerCrossing> crossings_;
+  std::vector<Mark> marks_;  // of the crossings, then of the points on the boundary
   double extent_ = 0;
   double clearance_ = 0;  // of the line that is weighed
   double slivers_ = 0;    // the penalty of the line that is tried
   std::vector<BoundaryPoint> points_;
-  bool has_points_ = false;
   std::vector<char> sides_;  // of the vertices
   std::vector<Proposal> proposals_;
   double best_score_ = HUGE_VAL;

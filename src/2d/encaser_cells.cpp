@@ -79,7 +79,7 @@ bool Encaser::find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* se
 
 void Encaser::find_saddles() {
   for (const CriticalCover& cover : result_.critical_covers)
-    append_saddles(polynomials_[cover.curve], cover.curve,
+    append_saddles(partition_->tiles()[cover.curve], cover.curve,
                    leaves(cover.root, cover.tokens, cover::kExcluded), &partition_->saddles);
   std::stable_sort(partition_->saddles.begin(), partition_->saddles.end(),
                    [](const Saddle& a, const Saddle& b) { return a.reach < b.reach; });

@@ -154,7 +154,7 @@ const Partition::Spot& Partition::spot(int line_crossing) {
   const int p = parameter_axis(line), q = 1 - p;
   spot.at[p] = spot.parameter;
   spot.at[q] = -(line.normal[p] * spot.parameter + line.offset) / line.normal[q];
-  const Point<2> g = curves_[c.curve].gradient(spot.at);
+  const auto [value, g] = value_and_gradient(tiles_[c.curve], spot.at);
   const double length = std::sqrt(g[0] * g[0] + g[1] * g[1]);
   if (length > 0) spot.normal = {g[0] / length, g[1] / length};
   spot.known = true;
@@ -165,6 +165,14 @@ bool parameter_grows(const Line& line, bool positive) {
   // With the inside to the left, the direction is (-b, a) on the negative side of a x + b y + c.
   const double along = parameter_axis(line) == 0 ? -line.normal[1] : line.normal[0];
   return (along > 0) != positive;
+}
+
+ValueAndGradient value_and_gradient(TiledPolynomial& f, const Point<2>& at) {
+  const Tile& tile = f.at(at);
+  const Point<2> scale{1 / tile.half[0], 1 / tile.half[1]};
+  const auto [value, slope_0, slope_1] = value_and_gradient(
+      tile, Point<2>{(at[0] - tile.center[0]) * scale[0], (at[1] - tile.center[1]) * scale[1]});
+  return {value, {slope_0 * scale[0], slope_1 * scale[1]}};
 }
 
 Box<2> bounds_of(const OpenCell& cell) {

@@ -151,6 +151,13 @@ class Partition {
 /// coefficients.
 bool parameter_grows(const Line& line, bool positive);
 
+/// A polynomial's value and gradient near or in its box, in doubles: heuristics use them.
+struct ValueAndGradient {
+  double value;
+  Point<2> gradient;
+};
+ValueAndGradient value_and_gradient(TiledPolynomial& f, const Point<2>& at);
+
 /// The smallest box around the centres of a cell's vertices.
 Box<2> bounds_of(const OpenCell& cell);
 

@@ -183,11 +183,11 @@ bool SplittingLines::approach(BoundaryPoint* a, BoundaryPoint* b) const {
   const double reach = 0.25 * (bounds.width(0) + bounds.width(1));
   const auto advance = [&](BoundaryPoint* p, double step) {
     step = std::clamp(step, -reach, reach);
-    const auto& f = partition_.curves()[p->curve];
+    TiledPolynomial& f = partition_.tiles()[p->curve];
     p->at[0] += -p->normal[1] * step;
     p->at[1] += p->normal[0] * step;
     for (int i = 0; i < kProjections; ++i) {
-      const auto [value, g] = f.value_and_gradient(p->at);
+      const auto [value, g] = value_and_gradient(f, p->at);
       const double square = dot(g, g);
       if (!(square > 0)) return false;
       for (int k = 0; k < 2; ++k) {
@@ -265,7 +265,7 @@ void SplittingLines::propose_refinement() {
   if (longest.a < 0) return;
   const Point<2> a = points[longest.a].at, b = points[longest.b].at, middle_point = halfway(a, b);
   const Point<2> along = unit(minus(b, a)), across{-along[1], along[0]};
-  const auto& f = partition_.curves()[points[longest.a].curve];
+  TiledPolynomial& f = partition_.tiles()[points[longest.a].curve];
   const double length = std::sqrt(longest.gap);
   const auto at = [&](double t) {
     return Point<2>{middle_point[0] + t * across[0], middle_point[1] + t * across[1]};
@@ -273,7 +273,7 @@ void SplittingLines::propose_refinement() {
   // Newton's iteration along the bisector.
   double t = 0;
   for (int i = 0; i < 8; ++i) {
-    const auto [value, gradient] = f.value_and_gradient(at(t));
+    const auto [value, gradient] = value_and_gradient(f, at(t));
     const double slope = dot(gradient, across);
     if (!(std::fabs(slope) > 0)) return;
     t -= value / slope;
@@ -281,7 +281,7 @@ void SplittingLines::propose_refinement() {
   }
   const double side = t < 0 ? -1 : 1, margin = 0.1 * std::fabs(t) + 0.01 * length;
   const Point<2> beyond = at(t + side * margin);
-  cell_.propose(line_through(beyond, f.gradient(beyond)));
+  cell_.propose(line_through(beyond, value_and_gradient(f, beyond).gradient));
   cell_.propose(line_through(at(-side * margin), across));
 }
 

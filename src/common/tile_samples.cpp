@@ -15,10 +15,23 @@
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
-/// Bit k: the value at (s[k], t[k]) is positive, for two rows of points.
-std::uint32_t positive_at(const Tile& tile, const double* s, const double* t) {
-  const Row zero = Row::all(0);
-  const Row s0 = Row::load(s), s1 = Row::load(s + 8), t0 = Row::load(t), t1 = Row::load(t + 8);
+HWY_INLINE std::uint32_t positive_lanes(const Row& row) {
+  std::uint32_t bits = 0;
+  for (int k = 0; k < kParts; ++k) {
+    std::uint8_t part[8] = {};
+    hn::StoreMaskBits(Lanes(), hn::Gt(row.part[k], hn::Zero(Lanes())), part);
+    bits |= static_cast<std::uint32_t>(part[0]) << (k * kLanes);
+  }
+  return bits;
+}
+
+/// Bit k: the value at the point s + k ds, t + k dt is positive.
+std::uint32_t positive_at(const Tile& tile, double s, double ds, double t, double dt) {
+  HWY_ALIGN static constexpr double kNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                    8, 9, 10, 11, 12, 13, 14, 15};
+  const Row zero = Row::all(0), low = Row::load(kNumbers), high = Row::load(kNumbers + 8);
+  const Row s0 = Row::all(s) + low * Row::all(ds), s1 = Row::all(s) + high * Row::all(ds);
+  const Row t0 = Row::all(t) + low * Row::all(dt), t1 = Row::all(t) + high * Row::all(dt);
   Row sum0 = zero, sum1 = zero;
   for (int i = tile.degree; i >= 0; --i) {
     const double* row = tile.a[i].data();
@@ -31,17 +44,7 @@ std::uint32_t positive_at(const Tile& tile, const double* s, const double* t) {
     sum0 = sum0 * s0 + inner0;
     sum1 = sum1 * s1 + inner1;
   }
-  HWY_ALIGN double values[16];
-  sum0.store(values);
-  sum1.store(values + 8);
-  std::uint32_t bits = 0;
-  for (int k = 0; k < 16; k += kLanes) {
-    const auto above = hn::Gt(hn::Load(Lanes(), values + k), hn::Zero(Lanes()));
-    std::uint8_t part[8] = {};
-    hn::StoreMaskBits(Lanes(), above, part);
-    bits |= static_cast<std::uint32_t>(part[0]) << k;
-  }
-  return bits;
+  return positive_lanes(sum0) | positive_lanes(sum1) << 8;
 }
 
 /// The value and the derivatives up to the second order, by Horner's rule in either variable.
@@ -89,20 +92,20 @@ int count_sign_changes(TiledPolynomial& f, const Point<2>& from, const Point<2>&
   const Point<2> step{(to[0] - from[0]) / kSamples, (to[1] - from[1]) / kSamples};
   const Point<2> first{from[0] + 0.5 * step[0], from[1] + 0.5 * step[1]};
   std::uint32_t positive = 0;
-  alignas(64) double s[kSamples], t[kSamples];
   for (int done = 0; done < kSamples;) {
     const Tile& tile = f.at({first[0] + done * step[0], first[1] + done * step[1]});
-    const double x = 1 / tile.half[0], y = 1 / tile.half[1];
-    int end = done;
-    bool within = true;
-    for (int k = 0; k < kSamples; ++k) {
-      s[k] = (first[0] + k * step[0] - tile.center[0]) * x;
-      t[k] = (first[1] + k * step[1] - tile.center[1]) * y;
-      within = within && (k < done || std::max(std::fabs(s[k]), std::fabs(t[k])) <= Tile::kReach);
-      end += within && k >= done;
+    Point<2> start, stride;
+    int end = kSamples;
+    for (int i = 0; i < 2; ++i) {
+      const double scale = 1 / tile.half[i];
+      start[i] = (first[i] - tile.center[i]) * scale;
+      stride[i] = step[i] * scale;
+      if (std::fabs(start[i] + (end - 1) * stride[i]) > Tile::kReach)
+        end = static_cast<int>((std::copysign(Tile::kReach, stride[i]) - start[i]) / stride[i]) + 1;
     }
     end = std::max(end, done + 1);
-    const std::uint32_t here = HWY_DYNAMIC_DISPATCH(positive_at)(tile, s, t);
+    const std::uint32_t here =
+        HWY_DYNAMIC_DISPATCH(positive_at)(tile, start[0], stride[0], start[1], stride[1]);
     positive |= here & ((1u << end) - (1u << done));
     done = end;
   }
