@@ -39,19 +39,42 @@ double rough_logarithm(double x) {
   return exponent - 2 + 2 * fraction;
 }
 
+/// What a number of crossings inside adds to the cells to be expected.
+double cells_for_crossings(int crossings) {
+  return kPerCrossing * crossings + kPerRootOfCrossings * std::sqrt(crossings) + kWithCrossings;
+}
+
 /// If `crossings` crossings fall on `branches` branches at random: how many branches get none.
 double uncrossed(int branches, int crossings) {
-  static const auto table = [] {
-    std::array<std::array<double, 32>, 16> values{};
-    for (int m = 1; m < 16; ++m) {
-      values[m][0] = m;
-      for (int r = 1; r < 32; ++r) values[m][r] = values[m][r - 1] * (1 - 1.0 / m);
-    }
-    return values;
-  }();
-  if (branches > 15) return std::max(0, branches - crossings);
-  return crossings > 31 ? 0.0 : table[branches][crossings];
+  return branches * std::pow(1 - 1.0 / branches, crossings);
 }
+
+/// What so many branches of a curve with so many crossings add.
+double cells_for_branches(int branches, int crossings) {
+  return kPerBranch * branches + kPerUncrossedBranch * uncrossed(branches, crossings);
+}
+
+constexpr int kCrossingsInTable = 64, kBranchesInTable = 16;
+
+struct Expectations {
+  Expectations() {
+    for (int r = 0; r < kCrossingsInTable; ++r) {
+      crossings[r] = cells_for_crossings(r);
+      for (int m = 1; m < kBranchesInTable; ++m) branches[m][r] = cells_for_branches(m, r);
+    }
+  }
+  double for_crossings(int r) const {
+    return r < kCrossingsInTable ? crossings[r] : cells_for_crossings(r);
+  }
+  double for_branches(int m, int r) const {
+    return m < kBranchesInTable && r < kCrossingsInTable ? branches[m][r]
+                                                         : cells_for_branches(m, r);
+  }
+
+  std::array<double, kCrossingsInTable> crossings{};
+  std::array<std::array<double, kCrossingsInTable>, kBranchesInTable> branches{};
+};
+const Expectations expectations;
 
 }  // namespace
 
@@ -131,13 +154,13 @@ bool CellAtHand::leaves_simple_parts() const {
 
 double CellAtHand::expected_cells(const Part& part) {
   int curves = 0, branches = 0;
-  double loose = 0;
+  double of_branches = 0;
   for (const Presence& p : part.curves) {
     const int count = branches_of(p);
     if (count == 0) continue;
     ++curves;
     branches += count;
-    loose += uncrossed(count, p.crossings);
+    of_branches += expectations.for_branches(count, p.crossings);
   }
   if (part.crossings == 0) {
     if (branches == 0) return kEmpty;
@@ -145,8 +168,7 @@ double CellAtHand::expected_cells(const Part& part) {
     return kFinishedBranch + further * (branches - 1);
   }
   if (part.crossings == 1 && branches == 2) return kFinishedCrossing;
-  return kPerCrossing * part.crossings + kPerBranch * branches + kPerUncrossedBranch * loose +
-         kPerRootOfCrossings * std::sqrt(part.crossings) + kWithCrossings;
+  return expectations.for_crossings(part.crossings) + of_branches;
 }
 
 int CellAtHand::least_cells(const Part& part) {
@@ -226,18 +248,21 @@ void CellAtHand::guess_division(const Line& line) {
   }
 }
 
-/// Adds the roots that the curves seem to have on a chord; false once the score reaches the limit.
-bool CellAtHand::guess_roots(const std::array<Point<2>, 2>& ends, double limit) {
-  for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
+/// Adds the roots that the curves seem to have on a chord, and returns the score; stops once that
+/// reaches the limit.
+double CellAtHand::guess_roots(const std::array<Point<2>, 2>& ends, double limit) {
+  double reached = score();
+  for (std::size_t s = 0; s < whole_.curves.size() && reached < limit; ++s) {
     TiledPolynomial& f = partition_.tiles()[whole_.curves[s].curve];
     const int old = parts_[0].curves[s].ends;
     int roots = count_sign_changes(f, ends[0], ends[1]);
     // A curve enters a cell as often as it leaves it.
     if ((roots + old) % 2 != 0) ++roots;
+    if (roots == 0) continue;
     for (Part& part : parts_) part.curves[s].ends += roots;
-    if (!(score() < limit)) return false;
+    reached = score();
   }
-  return true;
+  return reached;
 }
 
 /// Guesses the score of a line; false if it seems not to cut the cell. The roots on the line are
@@ -251,8 +276,8 @@ bool CellAtHand::weigh(double limit, Proposal* proposal) {
   if (!guess_chord(line, &ends)) return false;
   guess_division(line);
   set_slivers(line, clearance_);
-  proposal->sampled = score() < limit && guess_roots(ends, limit);
-  proposal->score = score();
+  proposal->score = guess_roots(ends, limit);
+  proposal->sampled = proposal->score < limit;
   return true;
 }
 
@@ -394,7 +419,7 @@ bool CellAtHand::prove_best() {
   }
   proposals_.clear();
   best_score_ = has_cut_ ? best_.score : HUGE_VAL;
-  seems_finished_ = is_finished();
+  seems_finished_ = has_cut_ && is_finished_;
   return has_cut_;
 }
 

@@ -60,8 +60,6 @@ class CellAtHand {
   /// cut.
   bool prove_best();
   bool has_cut() const { return has_cut_; }
-  /// Whether the best cut leaves two parts that need no further cut but for loops.
-  bool is_finished() const { return has_cut_ && is_finished_; }
   Cut& cut() { return best_; }
   /// Forgets the lines proposed and the best cut.
   void start_again();
@@ -94,7 +92,7 @@ class CellAtHand {
   double score() const;
   bool guess_chord(const Line& line, std::array<Point<2>, 2>* ends);
   void guess_division(const Line& line);
-  bool guess_roots(const std::array<Point<2>, 2>& ends, double limit);
+  double guess_roots(const std::array<Point<2>, 2>& ends, double limit);
   bool weigh(double limit, Proposal* proposal);
   void set_slivers(const Line& line, double clearance);
   bool is_beaten() const;

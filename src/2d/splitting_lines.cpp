@@ -2,7 +2,9 @@
 #include "2d/splitting_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace encase {
 namespace {
@@ -13,11 +15,17 @@ constexpr int kBisectedPairs = 3;    // of crossings
 constexpr int kSaddles = 4;          // of a curve
 constexpr int kBranchPairs = 6;      // of boundary points of a curve, on different branches
 constexpr int kCurvePairs = 4;       // of neighbours on the boundary, of different curves
-constexpr int kApproachedPairs = 5;  // of boundary points
+constexpr int kApproachedPairs = 8;  // of boundary points
 constexpr int kApproachSteps = 2;
 constexpr int kProjections = 2;           // onto the curve, in each
 constexpr double kEnoughWhenFast = -0.5;  // expected cells that a cut has to save
-constexpr double kPoor = 0;  // a cut worse by this than no cut calls for closest approach
+// Cuts that save no more expected cells than this call for closest approach, and in a cell that no
+// progress has led to for some levels for fans.
+constexpr double kPoor = 0.5;
+constexpr double kPoorWhenFast = -1;
+constexpr double kPoorInFan = 0;
+constexpr int kFanPairs = 8;  // of boundary points
+constexpr int kFanLines = 12;
 
 double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
 Point<2> minus(const Point<2>& a, const Point<2>& b) { return {a[0] - b[0], a[1] - b[1]}; }
@@ -67,13 +75,14 @@ void SplittingLines::keep_closest(std::size_t count) {
 }
 
 SplittingLines::SplittingLines(CellAtHand& cell, bool fast)
-    : cell_(cell), partition_(cell.partition()), enough_(fast ? kEnoughWhenFast : HUGE_VAL) {}
+    : cell_(cell), partition_(cell.partition()), fast_(fast) {}
 
 /// Whether the best line is proved to be good enough.
 bool SplittingLines::is_good_enough() {
-  const double limit = cell_.expected_cells() - enough_;
-  if (!cell_.seems_finished() && !(cell_.best_score() < limit)) return false;
-  return cell_.prove_best() && (cell_.is_finished() || cell_.cut().score < limit);
+  const auto seems_good = [&] {
+    return cell_.seems_finished() || (fast_ && seems_to_save(kEnoughWhenFast));
+  };
+  return seems_good() && cell_.prove_best() && seems_good();
 }
 
 void SplittingLines::propose_between_crossings() {
@@ -285,6 +294,35 @@ void SplittingLines::propose_refinement() {
   cell_.propose(line_through(at(-side * margin), across));
 }
 
+/// Lines in all directions halfway between the closest boundary points. Of all these some line
+/// often separates two long branches that bend beside each other, where no line derived from them
+/// does.
+void SplittingLines::propose_fans() {
+  static const auto normals = [] {
+    std::array<Point<2>, kFanLines> directions;
+    for (int k = 0; k < kFanLines; ++k) {
+      const double angle = (k + 0.37) * std::numbers::pi / kFanLines;
+      directions[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return directions;
+  }();
+  const auto& points = cell_.points();
+  const int n = static_cast<int>(points.size());
+  pairs_.clear();
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j)
+      pairs_.push_back({i, j, square_distance(points[i].at, points[j].at)});
+  keep_closest(kFanPairs);
+  for (const Pair& p : pairs_) {
+    const Point<2> middle = halfway(points[p.a].at, points[p.b].at);
+    for (const Point<2>& normal : normals) cell_.propose(line_through(middle, normal));
+  }
+}
+
+bool SplittingLines::seems_to_save(double cells) const {
+  return cell_.best_score() <= cell_.expected_cells() - cells;
+}
+
 bool SplittingLines::find_best() {
   cell_.start_again();
   const auto& curves = cell_.curves();
@@ -301,8 +339,9 @@ bool SplittingLines::find_best() {
   propose_between_crossings();
   if (!is_good_enough()) propose_between_branches();
   if (!is_good_enough()) propose_between_curves();
-  if (!cell_.prove_best() || cell_.cut().score > cell_.expected_cells() + kPoor)
-    propose_closest_approach();
+  cell_.prove_best();
+  if (!seems_to_save(fast_ ? kPoorWhenFast : kPoor)) propose_closest_approach();
+  if (!fast_ && stall > 0 && !seems_to_save(kPoorInFan)) propose_fans();
   return cell_.prove_best() || find_bisector();
 }
 

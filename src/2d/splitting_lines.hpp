@@ -30,6 +30,7 @@ class SplittingLines {
     double gap;  ///< squared
   };
   void keep_closest(std::size_t count);
+  bool seems_to_save(double cells) const;
   bool is_good_enough();
   void propose_between_crossings();
   void propose_through_saddles(int curve);
@@ -37,13 +38,14 @@ class SplittingLines {
   void propose_between_curves();
   bool approach(BoundaryPoint* a, BoundaryPoint* b) const;
   void propose_closest_approach();
+  void propose_fans();
   Pair longest_chord();
   bool find_bisector();
   void propose_refinement();
 
   CellAtHand& cell_;
   Partition& partition_;
-  const double enough_;  // a cut that saves so many expected cells is taken
+  const bool fast_;
   std::vector<Pair> pairs_;
   std::vector<double> projections_;
 };
