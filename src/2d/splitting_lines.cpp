@@ -19,11 +19,10 @@ constexpr int kApproachedPairs = 8;  // of boundary points
 constexpr int kApproachSteps = 2;
 constexpr int kProjections = 2;           // onto the curve, in each
 constexpr double kEnoughWhenFast = -0.5;  // expected cells that a cut has to save
-// Cuts that save no more expected cells than this call for closest approach, and in a cell that no
-// progress has led to for some levels for fans.
-constexpr double kPoor = 0.5;
+constexpr double kPoor = 0.5;  // a cut that does not save so many calls for closest approach
 constexpr double kPoorWhenFast = -1;
-constexpr double kPoorInFan = 0;
+constexpr double kPoorWhenStalled = 0;  // and in the first levels without progress for fans
+constexpr int kFanLevels = 2;
 constexpr int kFanPairs = 8;  // of boundary points
 constexpr int kFanLines = 12;
 
@@ -341,7 +340,8 @@ bool SplittingLines::find_best() {
   if (!is_good_enough()) propose_between_curves();
   cell_.prove_best();
   if (!seems_to_save(fast_ ? kPoorWhenFast : kPoor)) propose_closest_approach();
-  if (!fast_ && stall > 0 && !seems_to_save(kPoorInFan)) propose_fans();
+  if (!fast_ && stall > 0 && stall <= kFanLevels && !seems_to_save(kPoorWhenStalled))
+    propose_fans();
   return cell_.prove_best() || find_bisector();
 }
 
