@@ -32,6 +32,23 @@ void add_targets(const Point<2>& from, int edge, const Point<2>& a, const Point<
   }
 }
 
+/// Whether f seems to keep its sign from one point to the other, well away from zero: what is
+/// hopeless or hard to prove is not tried.
+bool seems_free(const FilteredPolynomial<2>& f, Sign sign, const Point<2>& from,
+                const Point<2>& to) {
+  constexpr int kSamples = 10;
+  double least = HUGE_VAL, most = 0;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double w = static_cast<double>(i) / kSamples;
+    const double value =
+        f.approximate({from[0] + w * (to[0] - from[0]), from[1] + w * (to[1] - from[1])});
+    if ((value > 0) != (sign == Sign::Positive)) return false;
+    least = std::min(least, std::fabs(value));
+    most = std::max(most, std::fabs(value));
+  }
+  return least > 1e-6 * most;
+}
+
 }  // namespace
 
 std::optional<LoopCertificate> certify_no_loop(CellAtHand& at_hand, int critical_region) {
@@ -58,7 +75,7 @@ std::optional<LoopCertificate> certify_no_loop(CellAtHand& at_hand, int critical
   });
   int tries = 0;
   for (const Target& target : targets) {
-    if ((f.approximate(target.at) > 0) != (region.sign == Sign::Positive)) continue;
+    if (!seems_free(f, region.sign, from, target.at)) continue;
     if (++tries > kMaxTargets) break;
     const Line& line = partition.lines[cell.edges[target.edge].line];
     // The inside of the edge, told by the region itself.
