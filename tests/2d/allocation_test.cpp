@@ -1,25 +1,48 @@
 // SPDX-License-Identifier: MIT
 //
-// Splitting allocates for what it keeps, not for what it tries.
+// Searching allocates for what it keeps, not for what it tries; and not much in all.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <new>
 
+#include "2d/critical_regions.hpp"
 #include "2d/encaser.hpp"
+#include "common/isolate_roots.hpp"
 #include "common/random_polynomials.hpp"
+#include "encase/encasement.hpp"
 
 namespace {
+
 long allocations = 0;
+long live_bytes = 0, most_bytes = 0;
+
+void* counted(void* memory) {
+  if (memory == nullptr) throw std::bad_alloc();
+  ++allocations;
+  live_bytes += static_cast<long>(malloc_usable_size(memory));
+  most_bytes = std::max(most_bytes, live_bytes);
+  return memory;
+}
+void release(void* memory) {
+  live_bytes -= static_cast<long>(malloc_usable_size(memory));
+  std::free(memory);
+}
+
 }  // namespace
 
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
+void* operator new(std::size_t size) { return counted(std::malloc(size > 0 ? size : 1)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  const auto unit = static_cast<std::size_t>(alignment);
+  return counted(std::aligned_alloc(unit, (size + unit - 1) / unit * unit));
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
 
 namespace encase {
 namespace {
@@ -44,6 +67,86 @@ TEST(Allocations, OfSplittingAreBoundedByWhatItKeeps) {
     EXPECT_LT(during, 2 * kept) << "degree " << degree;
     EXPECT_GT(e.statistics.candidate_lines, 2 * kept);
   }
+}
+
+/// Two random curves with tiles over the square.
+struct Pair {
+  explicit Pair(int degree, std::uint64_t seed = 1)
+      : curves(random(degree, seed)), f(curves[0], box, kernel), g(curves[1], box, kernel) {}
+
+  static std::vector<FilteredPolynomial<2>> random(int degree, std::uint64_t seed) {
+    RandomOptions options;
+    options.degree = degree;
+    options.seed = seed;
+    std::vector<FilteredPolynomial<2>> result;
+    for (const Polynomial<2>& p : random_polynomials<2>(options)) result.emplace_back(p);
+    return result;
+  }
+
+  Kernel kernel;
+  Box<2> box = subdivision_root<2>({{-1, -1}, {1, 1}});
+  std::vector<FilteredPolynomial<2>> curves;
+  TiledPolynomial f, g;
+};
+
+TEST(Allocations, OfIsolatingRootsAreBoundedByTilesAndRoots) {
+  long boxes = 0, all = 0;
+  for (const int degree : {6, 10, 14, 20}) {
+    Pair pair(degree);
+    const long before = allocations;
+    const auto roots = isolate_roots(pair.f, pair.g, {}, SubdivisionLimits{}, pair.kernel);
+    const long during = allocations - before;
+    EXPECT_LE(during, 2 * (pair.kernel.expansions + static_cast<long>(roots.roots.size()) + 20))
+        << "degree " << degree;
+    boxes += roots.boxes;
+    all += during;
+    std::printf("degree %d: %ld allocations, %d boxes, %ld tiles, %zu roots\n", degree, during,
+                roots.boxes, static_cast<long>(pair.kernel.expansions), roots.roots.size());
+  }
+  EXPECT_GT(boxes, 3 * all);
+}
+
+TEST(Allocations, OfCriticalRegionsAreBoundedByTilesAndRegions) {
+  long boxes = 0, all = 0;
+  for (const int degree : {6, 10, 14, 20}) {
+    Pair pair(degree);
+    const long before = allocations;
+    const auto found = critical_regions(pair.f, 0, {}, SubdivisionLimits{}, pair.kernel);
+    const long during = allocations - before;
+    long kept = 0;
+    for (const auto& region : found.regions) kept += 1 + static_cast<long>(region.boxes.size());
+    EXPECT_LE(during, 2 * (pair.kernel.expansions + kept + 20)) << "degree " << degree;
+    boxes += found.boxes;
+    all += during;
+    std::printf("degree %d: %ld allocations, %d boxes, %ld tiles, %ld kept\n", degree, during,
+                found.boxes, static_cast<long>(pair.kernel.expansions), kept);
+  }
+  EXPECT_GT(boxes, 3 * all);
+}
+
+TEST(Allocations, OfMoreBoxesAreNoMore) {
+  // What was made for the first time is there for the second: only lists grow.
+  Pair pair(12);
+  isolate_roots(pair.f, pair.g, {}, SubdivisionLimits{}, pair.kernel);
+  const long before = allocations;
+  const auto roots = isolate_roots(pair.f, pair.g, {}, SubdivisionLimits{}, pair.kernel);
+  EXPECT_LT(allocations - before, 60);
+  EXPECT_GT(roots.boxes, 300);
+}
+
+TEST(Memory, OfDegreeTwentyIsUnderFiftyMegabytes) {
+  RandomOptions random;
+  random.degree = 20;
+  const auto curves = random_curves(random);
+  const Region region = make_region(-1, 1, -1, 1).value();
+  const long before = live_bytes;
+  most_bytes = live_bytes;
+  const auto result = encase(curves, region);
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result.value().outcome, Outcome::Certified);
+  std::printf("at most %.1f MB\n", static_cast<double>(most_bytes - before) * 1e-6);
+  EXPECT_GT(most_bytes - before, 100000);
+  EXPECT_LT(most_bytes - before, 50000000);
 }
 
 }  // namespace
