@@ -428,7 +428,9 @@ TEST(CriticalPatch, BoxesWithALocalMaximumOrASingularPointAreKept) {
       if (round % 2 == 0) turn(&patch);
       const bool inside = Rational(box.lo[0]) <= at[0] && at[0] <= Rational(box.hi[0]) &&
                           Rational(box.lo[1]) <= at[1] && at[1] <= Rational(box.hi[1]);
-      if (inside) EXPECT_FALSE(test_critical(patch).excluded);
+      if (inside) {
+        EXPECT_FALSE(test_critical(patch).excluded);
+      }
       // Beside it there is usually none.
       Box<2> beside = box;
       beside.lo[0] = box.hi[0];
