@@ -432,7 +432,10 @@ class Random(CommandTest):
 
 class Interrupt(CommandTest):
     def test_leaves_an_undecided_result_and_a_complete_file(self):
-        text = encase("random", "--degree", "40", "--count", "4", "--seed", "3").stdout
+        # Some seconds of work, of which a part is waited for.
+        curves = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../data/curves")
+        with open(os.path.join(curves, "L4_circles.curves")) as file:
+            text = file.read()
         path = self.path("r.json")
         process = subprocess.Popen([ENCASE, "curves", "-", "--json", path, "--max-seconds", "100"],
                                    stdin=subprocess.PIPE, stdout=subprocess.PIPE,
@@ -440,7 +443,7 @@ class Interrupt(CommandTest):
         try:
             process.stdin.write(text)
             process.stdin.close()
-            time.sleep(1.5)
+            time.sleep(0.5)
             process.send_signal(signal.SIGINT)
             code = process.wait(timeout=30)
         finally:
