@@ -553,7 +553,8 @@ void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
   const Interpolation& table = interpolation(count);
   patch->count = table.count;
   patch->rows_axis = 0;
-  HWY_ALIGN std::array<std::array<double, 8>, 2> at;
+  // (HWY_ALIGN is that of the scalar path here.)
+  alignas(64) std::array<std::array<double, 8>, 2> at;
   Point<2> part;
   for (int i = 0; i < 2; ++i) {
     const Centered chart = centered(box.lo[i], box.hi[i]);
