@@ -14,6 +14,69 @@
 
 #include "common/simd_rows-inl.hpp"
 
+#ifndef ENCASE_TILE_ONCE
+#define ENCASE_TILE_ONCE
+namespace encase {
+namespace {
+
+/// Expansions of polynomials up to this degree are halved: docs/error-bounds.md.
+constexpr int kMaxHalved = 30;
+
+/// At least kReach^k, for k up to 60.
+constexpr double reach_power(int k) { return 1 + 0x1.1p-10 * k; }
+
+/// Binomial coefficients: those over k in row k, by the upper number.
+struct Binomials {
+  double over[kMaxHalved + 1][kMaxHalved + 1];
+};
+constexpr Binomials make_binomials() {
+  Binomials b{};
+  for (int i = 0; i <= kMaxHalved; ++i) {
+    b.over[0][i] = 1;
+    for (int k = 1; k <= i; ++k)
+      b.over[k][i] = b.over[k - 1][i - 1] + (k < i ? b.over[k][i - 1] : 0);
+  }
+  return b;
+}
+constexpr Binomials kBinomials = make_binomials();
+
+/// Those of 8 to 15 over 8 to 15, by the upper number.
+struct alignas(64) HighBinomials {
+  double of[8][8];
+};
+constexpr HighBinomials make_high_binomials() {
+  HighBinomials b{};
+  for (int i = 0; i < 8; ++i)
+    for (int k = 0; k <= i; ++k) b.of[i][k] = kBinomials.over[8 + k][8 + i];
+  return b;
+}
+constexpr HighBinomials kHighBinomials = make_high_binomials();
+
+/// By the degree k: kReach^k, k and k^2 times that, rounded up or by little.
+struct Weights {
+  double of[3][kMaxDegree + 16];
+};
+constexpr Weights make_weights() {
+  Weights t{};
+  for (int k = 0; k < kMaxDegree + 16; ++k) {
+    t.of[0][k] = reach_power(k);
+    t.of[1][k] = k * t.of[0][k];
+    t.of[2][k] = k * t.of[1][k];
+  }
+  return t;
+}
+constexpr Weights kWeights = make_weights();
+
+/// Sums over the absolute values of coefficients with the weights above: of those that a tile holds
+/// and of those that it has no room for; and Tile::high_terms but for their roundings.
+struct TileSums {
+  double kept[3], dropped[3], high_terms[8];
+};
+
+}  // namespace
+}  // namespace encase
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
@@ -67,6 +130,190 @@ void shift_and_scale(double* high, double* low, int degree, int stride, double o
     const std::size_t row = static_cast<std::size_t>(i) * stride;
     multiply(high + row, low + row, power, power_rest, degree + 1 - i);
   }
+}
+
+/// Rows become columns: whole blocks of eight, those with coefficients up to the total degree.
+void turn(const double* high, const double* low, int degree, int stride, double* to_high,
+          double* to_low) {
+  const int last = degree / 8;
+  for (int i = 0; i <= last; ++i)
+    for (int j = 0; i + j <= last; ++j) {
+      const std::size_t from = (static_cast<std::size_t>(i) * stride + j) * 8,
+                        to = (static_cast<std::size_t>(j) * stride + i) * 8;
+      Row h[8], l[8];
+      for (int r = 0; r < 8; ++r) {
+        h[r] = Row::load(high + from + r * stride);
+        l[r] = Row::load(low + from + r * stride);
+      }
+      transpose(h);
+      transpose(l);
+      for (int r = 0; r < 8; ++r) {
+        h[r].store(to_high + to + r * stride);
+        l[r].store(to_low + to + r * stride);
+      }
+    }
+}
+
+/// Makes `low` what `high` lacks of the rounded sum of both. Returns the largest |high|.
+double normalize(double* high, double* low, int degree, int stride) {
+  Row largest = Row::all(0);
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; i + j <= degree; j += 8) {
+      const std::size_t at = static_cast<std::size_t>(i) * stride + j;
+      Row rest;
+      const Row sum = exact_sum(Row::load(high + at), Row::load(low + at), &rest);
+      sum.store(high + at);
+      rest.store(low + at);
+      largest = greatest(largest, absolute(sum));
+    }
+  return greatest_lane(largest);
+}
+
+/// Writes every number high + low times 2^-i, i its row, as a sum of three: a multiple of the unit
+/// U, one of the finer unit V, and the rest; for each block of eight columns the rows, three by
+/// three. `turned`: rows become columns first.
+void split(const double* high, const double* low, int degree, int stride, bool turned, double unit,
+           double finer, double* slices) {
+  // Adding and subtracting these rounds to multiples of the units.
+  const Row coarse = Row::all(0x1.8p52 * unit), fine = Row::all(0x1.8p52 * finer);
+  const int last = degree / 8;
+  for (int i = 0; i <= last; ++i)
+    for (int j = 0; i + j <= last; ++j) {
+      const std::size_t from = (static_cast<std::size_t>(i) * stride + j) * 8;
+      Row h[8], l[8];
+      for (int r = 0; r < 8; ++r) {
+        h[r] = Row::load(high + from + r * stride);
+        l[r] = Row::load(low + from + r * stride);
+      }
+      if (turned) {
+        transpose(h);
+        transpose(l);
+      }
+      const int row = 8 * (turned ? j : i), column = turned ? i : j;
+      double* to = slices + 24 * (static_cast<std::size_t>(column) * stride + row);
+      double scale = 1.0 / (1ll << row);
+      for (int r = 0; r < 8; ++r, scale *= 0.5) {
+        const Row x = h[r] * Row::all(scale), first = (x + coarse) - coarse, rest = x - first,
+                  second = (rest + fine) - fine;
+        first.store(to + 24 * r);
+        second.store(to + 24 * r + 8);
+        ((rest - second) + l[r] * Row::all(scale)).store(to + 24 * r + 16);
+      }
+    }
+}
+
+/// p((-1 + t) / 2) and p((1 + t) / 2), of which the terms with even and with odd powers of the
+/// shift are added up apart: those of the first two slices without rounding. Returns the largest
+/// coefficients.
+void halve_slices(const double* slices, int degree, int stride, double* const* high,
+                  double* const* low, double* largest) {
+  const Row zero = Row::all(0);
+  Row most[2] = {zero, zero};
+  for (int column = 0; 8 * column <= degree; ++column) {
+    const double* rows = slices + 24 * static_cast<std::size_t>(column) * stride;
+    const int top = degree - 8 * column;
+    for (int k = 0; k <= top; ++k) {
+      Row even[3] = {zero, zero, zero}, odd[3] = {zero, zero, zero};
+      const double* row = rows + 24 * k;
+      const auto add = [&](int i, Row* sum) {
+        const Row factor = Row::all(kBinomials.over[k][i]);
+        sum[0] = exact_multiply_add(factor, Row::load(row), sum[0]);
+        sum[1] = exact_multiply_add(factor, Row::load(row + 8), sum[1]);
+        sum[2] = sum[2] + factor * Row::load(row + 16);
+        row += 24;
+      };
+      int i = k;
+      for (; i < top; i += 2) {
+        add(i, even);
+        add(i + 1, odd);
+      }
+      if (i == top) add(i, even);
+      const std::size_t to = static_cast<std::size_t>(k) * stride + 8 * column;
+      for (int half = 0; half < 2; ++half) {
+        Row sum[3], rest;
+        for (int s = 0; s < 3; ++s) sum[s] = half == 0 ? even[s] - odd[s] : even[s] + odd[s];
+        const Row two = exact_sum(sum[0], sum[1], &rest);
+        const Row whole = exact_sum(two, rest + sum[2], &rest);
+        whole.store(high[half] + to);
+        rest.store(low[half] + to);
+        most[half] = greatest(most[half], absolute(whole));
+      }
+    }
+  }
+  for (int half = 0; half < 2; ++half) largest[half] = greatest_lane(most[half]);
+}
+
+/// Sums with the weights of degrees.
+struct Totals {
+  Row sum[3];
+  HWY_INLINE void clear() { sum[0] = sum[1] = sum[2] = Row::all(0); }
+  HWY_INLINE void add(const Row& size, int first) {
+    for (int p = 0; p < 3; ++p)
+      sum[p] = sum[p] + size * Row::load_unaligned(kWeights.of[p] + first);
+  }
+};
+
+/// The coefficients of a tile, from numbers high + low (`turned`: rows are those of the second
+/// variable), and their sums.
+void fill_tile(const double* high, const double* low, int degree, int stride, bool turned,
+               double* a, TileSums* sums) {
+  const Row zero = Row::all(0);
+  Totals kept, dropped;
+  kept.clear();
+  dropped.clear();
+  Row powers = zero;  // entry k: the terms with exponent 8 + k of either variable
+  for (int i = 0; i < 8; ++i) {
+    zero.store(a + (8 + i) * Tile::kRow + 8);
+    if (degree >= 8) continue;
+    zero.store(a + i * Tile::kRow + 8);
+    zero.store(a + (8 + i) * Tile::kRow);
+  }
+  const int last = degree / 8;
+  for (int i = 0; i <= last; ++i)
+    for (int j = 0; i + j <= last; ++j) {
+      const std::size_t from = (static_cast<std::size_t>(i) * stride + j) * 8;
+      Row c[8];
+      for (int r = 0; r < 8; ++r)
+        c[r] = Row::load(high + from + r * stride) + Row::load(low + from + r * stride);
+      if (i + j >= 2) {
+        for (int r = 0; r < 8; ++r) dropped.add(absolute(c[r]), 8 * (i + j) + r);
+        continue;
+      }
+      if (turned) transpose(c);
+      double* to = a + 8 * ((turned ? j : i) * Tile::kRow + (turned ? i : j));
+      if (i + j == 0) {
+        for (int r = 0; r < 8; ++r) {
+          c[r].store(to + r * Tile::kRow);
+          kept.add(absolute(c[r]), r);
+        }
+        continue;
+      }
+      Row size[8];
+      for (int r = 0; r < 8; ++r) {
+        const Row inside = first_lanes(c[r], zero, 8 - r);
+        inside.store(to + r * Tile::kRow);
+        size[r] = absolute(inside);
+        kept.add(size[r], 8 + r);
+        dropped.add(absolute(c[r] - inside), 8 + r);
+      }
+      // Columns of the block with s_1^8 and so on, rows of that with s_0^8.
+      if ((i == 1) != turned) transpose(size);
+      powers = powers + (((size[0] + size[1]) + (size[2] + size[3])) +
+                         ((size[4] + size[5]) + (size[6] + size[7])));
+    }
+  for (int p = 0; p < 3; ++p) {
+    sums->kept[p] = sum_of_lanes(kept.sum[p]);
+    sums->dropped[p] = sum_of_lanes(dropped.sum[p]);
+  }
+  // Taylor's shift to 1.
+  HWY_ALIGN double of_power[8];
+  powers.store(of_power);
+  Row shifted = zero;
+  for (int i = std::min(degree, Tile::kMaxDegree); i >= 8; --i)
+    shifted = shifted + Row::all(of_power[i - 8]) * Row::load(kHighBinomials.of[i - 8]);
+  HWY_ALIGN double result[8];
+  shifted.store(result);
+  std::copy(result, result + 8, sums->high_terms);
 }
 
 /// The value of sum a[i][j] s^i t^j and its derivatives.
@@ -156,6 +403,50 @@ double precise_value(const double* high, const double* low, int degree, int stri
   return h[0] + l[0];
 }
 
+/// The sums at eight points, one in each lane: Horner's rule in y, then in x.
+void precise_values(const double* high, const double* low, int degree, int stride, const double* x,
+                    const double* y, double* result) {
+  const Row at_x = Row::load(x), at_y = Row::load(y);
+  const auto step = [](const Pair& sum, const Row& at, const Pair& next) {
+    Row product_error, sum_error;
+    const Row product = exact_product(sum.high, at, &product_error);
+    Pair r;
+    r.high = exact_sum(product, next.high, &sum_error);
+    r.low = sum.low * at + ((product_error + sum_error) + next.low);
+    return r;
+  };
+  Pair total{};
+  for (int i = degree; i >= 0; --i) {
+    const std::size_t row = static_cast<std::size_t>(i) * stride;
+    int j = degree - i;
+    Pair sum{Row::all(high[row + j]), Row::all(low[row + j])};
+    while (--j >= 0) sum = step(sum, at_y, {Row::all(high[row + j]), Row::all(low[row + j])});
+    total = i == degree ? sum : step(total, at_x, sum);
+  }
+  (total.high + total.low).store(result);
+}
+
+/// The values and derivatives of sum a[i][j] s^i t^j at eight points: result[0] to result[7] are
+/// the values, then come the derivatives with respect to s and t.
+void evaluate_eight(const double* a, int degree, const double* s, const double* t, double* result) {
+  const Row zero = Row::all(0), at_s = Row::load(s), at_t = Row::load(t);
+  Row value = zero, ds = zero, dt = zero;
+  for (int i = degree; i >= 0; --i) {
+    const double* row = a + i * Tile::kRow;
+    Row inner = zero, slope = zero;
+    for (int j = degree - i; j >= 0; --j) {
+      slope = slope * at_t + inner;
+      inner = inner * at_t + Row::all(row[j]);
+    }
+    ds = ds * at_s + value;
+    value = value * at_s + inner;
+    dt = dt * at_s + slope;
+  }
+  value.store(result);
+  ds.store(result + 8);
+  dt.store(result + 16);
+}
+
 }  // namespace encase::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -164,41 +455,37 @@ namespace encase {
 namespace {
 
 HWY_EXPORT(shift_and_scale);
+HWY_EXPORT(turn);
+HWY_EXPORT(normalize);
+HWY_EXPORT(split);
+HWY_EXPORT(halve_slices);
+HWY_EXPORT(fill_tile);
 HWY_EXPORT(evaluate);
+HWY_EXPORT(evaluate_eight);
 HWY_EXPORT(precise_value);
+HWY_EXPORT(precise_values);
 
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the roundings of the sums it multiplies
 constexpr int kMaxDepth = 8;         // of the quadtree of tiles
+// The error that a tile of the tree may have from halving, beside the sum of its coefficients.
+constexpr double kHalvingError = 0x1p-57;
+constexpr double kRounded = 0x1.01p-53;  // relative: of a sum of two doubles that becomes one
 
-}  // namespace
+struct alignas(64) Eight {
+  double x[8];
+};
 
-/// Numbers high + low, aligned: rows of coefficients, `stride` apart.
-struct TiledPolynomial::Coefficients {
-  struct alignas(64) Eight {
-    double x[8];
-  };
+/// Numbers high + low, aligned: rows of coefficients, `stride` apart and as many, or up to 7 more
+/// than there are. Zero beyond the total degree.
+struct Coefficients {
   std::vector<Eight> memory;
   int stride = 0;
 
-  void resize(int degree) {
-    stride = (degree + 8) / 8 * 8;
-    memory.resize(2 * static_cast<std::size_t>(degree + 1) * stride / 8);
-  }
+  explicit Coefficients(int n = 0)
+      : memory(static_cast<std::size_t>(n / 8 + 1) * (n / 8 + 1) * 16), stride((n / 8 + 1) * 8) {}
   double* high() { return memory.data()->x; }
   double* low() { return high() + 4 * memory.size(); }
-
-  /// Row i becomes column i of `from`; only what the total degree leaves.
-  void transpose(Coefficients& from, int degree) {
-    resize(degree);
-    for (int i = 0; i <= degree; ++i)
-      for (int j = 0; i + j <= degree; ++j) {
-        high()[j * stride + i] = from.high()[i * stride + j];
-        low()[j * stride + i] = from.low()[i * stride + j];
-      }
-  }
 };
-
-namespace {
 
 /// (1 + x + y)^n, rounded up.
 double growth(const Point<2>& reach, int n) {
@@ -223,72 +510,38 @@ void claim_nothing(Tile* tile) {
       std::numeric_limits<double>::infinity();
 }
 
-/// At least kReach^k, for k up to 60.
-double reach_power(int k) { return (1 + 0x1.1p-10 * k); }
+/// Sums of absolute values of coefficients, times kReach^degree.
+struct Sums {
+  double kept = 0, dropped = 0;
+};
 
-/// The sums of a tile whose coefficients are known, each to a relative `relative`; what the terms
-/// of higher degree (rows of `degree` + 1 coefficients, the exponents swapped) add to the errors is
-/// in tile->error and so on already.
-void add_up(Tile* tile, double relative) {
-  double sum = 0, slope = 0, bend = 0;
-  for (int i = 0; i <= tile->degree; ++i)
-    for (int j = 0; i + j <= tile->degree; ++j) {
-      const int k = i + j;
-      const double x = std::fabs(tile->a[i][j]) * reach_power(k);
-      sum += x;
-      slope += k * x;
-      bend += k * k * x;
-    }
-  tile->sum = sum * kUp;
-  tile->slope = slope * kUp;
-  tile->bend = bend * kUp;
-  tile->error = (tile->error + relative * tile->sum) * kUp;
-  tile->slope_error = (tile->slope_error + relative * tile->slope) * kUp;
-  tile->bend_error = (tile->bend_error + relative * tile->bend) * kUp;
-  if (!(tile->sum < 0x1p900) || !std::isfinite(tile->error + tile->bend_error)) claim_nothing(tile);
-}
-
-/// Sums of |a[i][j]| over one index, and Taylor's shift of them to 1: for every exponent from 8 on
-/// a bound on the terms that have it, around any point of the rectangle.
-void add_high_terms(Tile* tile) {
-  const int n = tile->degree;
-  auto& high = tile->high_terms;
-  high.fill(0.0);
-  for (int i = 8; i <= n; ++i)
-    for (int j = 0; i + j <= n; ++j)
-      high[i - 8] += std::fabs(tile->a[i][j]) + std::fabs(tile->a[j][i]);
-  for (int i = 0; i < n; ++i)
-    for (int k = n - 1; k >= std::max(i, 8); --k) high[k - 8] += high[k - 7];
-  for (double& x : high) x *= 1.0001;  // outweighs the roundings
-}
-
-/// Takes the Taylor coefficients of a polynomial of degree n, the errors of which add up to at most
-/// `error`, and each of which is good to a relative `relative`. Returns the sum of those that the
-/// tile has no room for.
-template <class Coefficient>
-double fill(Tile* tile, int n, Coefficient coefficient, double error, double relative) {
+/// Makes a tile of Taylor coefficients of a polynomial of degree n, the errors of which add up to
+/// at most `error`; each is rounded to a relative `relative`. `turned`: their rows are those of the
+/// second variable. Returns the sums of those that the tile has and that it has no room for.
+Sums fill(Tile* tile, int n, Coefficients& coefficients, bool turned, double error,
+          double relative) {
   tile->degree = std::min(n, Tile::kMaxDegree);
-  for (auto& row : tile->a) row.fill(0.0);
-  double dropped = 0, slope = 0, bend = 0;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; i + j <= n; ++j) {
-      const double x = coefficient(i, j);
-      const int k = i + j;
-      if (k <= Tile::kMaxDegree) {
-        tile->a[i][j] = x;
-      } else {
-        const double size = std::fabs(x) * reach_power(k);
-        dropped += size;
-        slope += k * size;
-        bend += k * k * size;
-      }
-    }
-  tile->error = dropped * kUp + error;
-  tile->slope_error = slope * kUp + n * error;
-  tile->bend_error = bend * kUp + n * n * error;
-  add_up(tile, relative);
-  add_high_terms(tile);
-  return dropped;
+  TileSums sums;
+  HWY_DYNAMIC_DISPATCH(fill_tile)
+  (coefficients.high(), coefficients.low(), n, coefficients.stride, turned, tile->a[0].data(),
+   &sums);
+  tile->sum = sums.kept[0] * kUp;
+  tile->slope = sums.kept[1] * kUp;
+  tile->bend = sums.kept[2] * kUp;
+  tile->error = (sums.dropped[0] * kUp + error + relative * tile->sum) * kUp;
+  tile->slope_error = (sums.dropped[1] * kUp + n * error + relative * tile->slope) * kUp;
+  tile->bend_error = (sums.dropped[2] * kUp + n * n * error + relative * tile->bend) * kUp;
+  // (1.0001 outweighs the roundings.)
+  for (std::size_t k = 0; k < 8; ++k) tile->high_terms[k] = sums.high_terms[k] * 1.0001;
+  if (!(tile->sum < 0x1p900) || !std::isfinite(tile->error + tile->bend_error)) claim_nothing(tile);
+  return {sums.kept[0], sums.dropped[0]};
+}
+
+/// A power of two greater than x > 0.
+double power_above(double x) {
+  int exponent;
+  std::frexp(x, &exponent);
+  return std::ldexp(1.0, exponent);
 }
 
 void place(Tile* tile, const Box<2>& box) {
@@ -299,43 +552,132 @@ void place(Tile* tile, const Box<2>& box) {
   }
 }
 
+/// Whether the coordinates of a tile are those of a quarter of a rectangle, exactly.
+bool is_quarter(const Tile& tile, const Point<2>& center, const Point<2>& half) {
+  for (int i = 0; i < 2; ++i)
+    if (tile.half[i] != 0.5 * half[i] || std::fabs(tile.center[i] - center[i]) != tile.half[i] ||
+        !exact_difference(tile.center[i], center[i]))
+      return false;
+  return true;
+}
+
+/// Halves a rectangle along the variable of the rows (`turned`: of the columns, which become rows).
+/// `largest`: |high| of `from`, then of both halves. False if numbers are too large or small.
+bool halve_rows(Coefficients& from, bool turned, double largest, int n, std::vector<Eight>& slices,
+                Coefficients* lower, Coefficients* upper, double* largest_of_both) {
+  if (!(0x1p-700 < largest && largest < 0x1p900)) return false;
+  const double unit = 0x1p-48 * power_above(largest), finer = std::ldexp(unit, n - 52);
+  HWY_DYNAMIC_DISPATCH(split)
+  (from.high(), from.low(), n, from.stride, turned, unit, finer, slices[0].x);
+  double* const high[2] = {lower->high(), upper->high()};
+  double* const low[2] = {lower->low(), upper->low()};
+  HWY_DYNAMIC_DISPATCH(halve_slices)
+  (slices[0].x, n, from.stride, high, low, largest_of_both);
+  return true;
+}
+
+/// What that loses at most, if the coefficients' absolute values add up to `sum`:
+/// docs/error-bounds.md.
+double halving_loss(int n, double largest, double sum) {
+  const double rest = std::ldexp(power_above(largest), 2 * n - 99);
+  return 0x1.2p-53 * ((0.5 * n + 5) * rest + (0.5 * n + 6) * 0x1p-53 * sum);
+}
+
 /// Whether the tile serves for the whole rectangle: its terms of higher degree do not matter, and
 /// patches some times smaller than the rectangle keep close to it.
 bool serves(const Tile& tile, double dropped) {
+  static const auto weights = [] {
+    std::array<double, 8> w;
+    for (int k = 0; k < 8; ++k) w[k] = std::ldexp(interpolation_loss(8 + k).value, -2 * (8 + k));
+    return w;
+  }();
   double size = 0;
   for (int i = 0; i <= 2; ++i)
     for (int j = 0; i + j <= 2; ++j) size += std::fabs(tile.a[i][j]);
-  return dropped <= 0x1p-14 * size && interpolation_loss(tile, 0.25).value <= 0x1p-5 * size;
+  double loss = 0;
+  for (int k = 0; k < 8; ++k) loss += weights[k] * tile.high_terms[k];
+  return dropped <= 0x1p-14 * size && loss <= 0x1p-5 * size;
 }
+
+/// The roundings that sums of two doubles do not hold, in units of the square of the unit roundoff:
+/// docs/error-bounds.md.
+double unheld_roundings(double n) { return (2 * n + 6) * (4 * n + 10) + 2 * n * n + 4; }
 
 }  // namespace
 
-/// What the expansions of one polynomial share: its coefficients, and those shifted in x for the
-/// tiles that stand in one column.
+/// A polynomial in the coordinates of a node of the tree.
+struct TiledPolynomial::Expansion {
+  Coefficients coefficients;
+  Point<2> center{}, half{};
+  int rows_axis = 0;    ///< 0: the coefficients of a power of x are a row; 1: of y
+  bool halved = false;  ///< comes from halving: low is what high lacks
+  double largest = 0;   ///< |high|, if `halved`
+  double sum = 0;       ///< at least the coefficients' absolute values, times kReach^degree
+  // What bounds their errors, added up likewise:
+  Point<2> origin{};        ///< the centre of the expansion made directly that this comes from
+  double halving_loss = 0;  ///< of the halvings since, and what underflows
+};
+
+/// What the expansions of one polynomial share, and the memory of its tiles.
 struct TiledPolynomial::Workspace {
   struct Column {
     double center, half;
     Coefficients shifted;  // row j: the coefficients of y^j
   };
-  Coefficients original;  // row i: the coefficients of x^i
-  Coefficients scratch;
-  std::vector<Column> columns;
-  Column single;
+
+  explicit Workspace(int n) : degree(n), original(n), local{Coefficients(n)} {}
+
+  /// The next tile to be made; used when `keep` is called.
+  Tile* tile() {
+    if (used == room) {
+      room = chunks.empty() ? 1 : std::min(32, 4 * room + 4);
+      used = 0;
+      chunks.push_back(std::make_unique_for_overwrite<Tile[]>(static_cast<std::size_t>(room)));
+    }
+    return &chunks.back()[used];
+  }
+  void keep() { ++used; }
+
+  Expansion* take() {
+    if (idle.empty()) {
+      expansions.push_back(std::make_unique<Expansion>(Expansion{Coefficients(degree)}));
+      return expansions.back().get();
+    }
+    Expansion* last = idle.back();
+    idle.pop_back();
+    return last;
+  }
+  void give_back(Expansion* expansion) { idle.push_back(expansion); }
+
+  int degree;
+  Coefficients original;        ///< row i: the coefficients of x^i
+  Coefficients scratch;         ///< empty until it is needed
+  Expansion local;              ///< what is made for one tile only
+  std::vector<Column> columns;  ///< shifted in x, for the tiles that stand in one column
+  std::vector<Eight> slices;    ///< for halving
+  std::array<Coefficients, 2> halves;
+  std::vector<std::unique_ptr<Expansion>> expansions;
+  std::vector<Expansion*> idle;
+  std::vector<std::unique_ptr<Tile[]>> chunks;
+  int used = 0, room = 0;  ///< of the last chunk
 };
 
 TiledPolynomial::TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel)
-    : f_(&f), kernel_(&kernel), root_(box), workspace_(std::make_unique<Workspace>()) {
-  const int n = f.degree();
-  workspace_->original.resize(n);
-  const int stride = workspace_->original.stride;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; i + j <= n; ++j) {
-      const std::size_t from = static_cast<std::size_t>(i) * (n + 1) + j;
-      workspace_->original.high()[i * stride + j] = f.coefficients()[from];
-      workspace_->original.low()[i * stride + j] = f.low_coefficients()[from];
-    }
-  nodes_.resize(1);
+    : f_(&f),
+      kernel_(&kernel),
+      root_(box),
+      nodes_(1),
+      workspace_(std::make_unique<Workspace>(f.degree())) {
+  const std::size_t n = static_cast<std::size_t>(f.degree());
+  Coefficients& original = workspace_->original;
+  const std::size_t stride = static_cast<std::size_t>(original.stride);
+  const double *high = f.coefficients().data(), *low = f.low_coefficients().data();
+  for (std::size_t i = 0; i <= n; ++i) {
+    std::copy_n(high + i * (n + 1), n + 1 - i, original.high() + i * stride);
+    std::copy_n(low + i * (n + 1), n + 1 - i, original.low() + i * stride);
+  }
   nodes_[0].box = box;
+  nodes_[0].center = box.center();
 }
 
 TiledPolynomial::TiledPolynomial(TiledPolynomial&&) noexcept = default;
@@ -343,86 +685,190 @@ TiledPolynomial::~TiledPolynomial() = default;
 
 const Tile& TiledPolynomial::at(const Point<2>& point) {
   int node = 0;
-  while (true) {
-    const Point<2> center = nodes_[node].box.center();
-    if (nodes_[node].tile) return *nodes_[node].tile;
+  while (!nodes_[node].tile) {
     if (nodes_[node].first_child < 0) {
-      auto tile = std::make_unique<Tile>();
-      const double dropped = make(nodes_[node].box, kernel_->start_bits, true, tile.get());
-      if (serves(*tile, dropped) || nodes_[node].depth == kMaxDepth) {
-        nodes_[node].tile = std::move(tile);
-        continue;
-      }
-      const int first = static_cast<int>(nodes_.size());
-      nodes_[node].first_child = first;
-      nodes_.resize(nodes_.size() + 4);
-      for (int k = 0; k < 4; ++k) {
-        Node& child = nodes_[first + k];
-        child.depth = nodes_[node].depth + 1;
-        child.box = nodes_[node].box;
-        for (int i = 0; i < 2; ++i) ((k >> i) % 2 ? child.box.lo : child.box.hi)[i] = center[i];
-      }
+      develop(node);
+      continue;
     }
+    const Point<2>& center = nodes_[node].center;
     node = nodes_[node].first_child + (point[0] > center[0]) + 2 * (point[1] > center[1]);
   }
+  return *nodes_[node].tile;
 }
 
 void TiledPolynomial::expand(const Box<2>& box, int bits, Tile* tile) {
-  make(box, bits, false, tile);
+  make(box, bits, false, tile, &workspace_->local);
 }
 
-double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* tile) {
+/// Gives a node a tile, or children.
+void TiledPolynomial::develop(int index) {
+  Workspace& w = *workspace_;
+  if (!nodes_[index].expansion) {
+    Node& node = nodes_[index];
+    Expansion* expansion = w.take();
+    const double dropped = make(node.box, kernel_->start_bits, node.depth > 0, w.tile(), expansion);
+    if (keep(node, expansion, dropped)) return;
+  }
+  Expansion* expansion = std::exchange(nodes_[index].expansion, nullptr);
+  const int first = static_cast<int>(nodes_.size());
+  nodes_[index].first_child = first;
+  nodes_.resize(nodes_.size() + 4);
+  const Node& node = nodes_[index];
+  for (int k = 0; k < 4; ++k) {
+    Node& child = nodes_[first + k];
+    child.depth = node.depth + 1;
+    child.box = node.box;
+    for (int i = 0; i < 2; ++i) ((k >> i) % 2 ? child.box.lo : child.box.hi)[i] = node.center[i];
+    child.center = child.box.center();
+  }
+  if (f_->degree() <= kMaxHalved && kernel_->start_bits <= Kernel::kDoubleBits &&
+      std::isfinite(expansion->sum))
+    halve(*expansion, first);
+  w.give_back(expansion);
+}
+
+/// Keeps the tile just made if it serves, else the expansion. Returns whether it is the tile.
+bool TiledPolynomial::keep(Node& node, Expansion* expansion, double dropped) {
+  Workspace& w = *workspace_;
+  Tile* tile = w.tile();
+  if (node.depth < kMaxDepth && !serves(*tile, dropped)) {
+    node.expansion = expansion;
+    return false;
+  }
+  node.tile = tile;
+  w.keep();
+  w.give_back(expansion);
+  return true;
+}
+
+/// Halves an expansion along both axes, for the four children of its node. A child whose
+/// coordinates are not exactly those of a quarter, or that would lose too much, gets nothing: it is
+/// made from the coefficients of f if it is asked for.
+void TiledPolynomial::halve(Expansion& parent, int first_child) {
+  const int n = f_->degree();
+  Workspace& w = *workspace_;
+  Coefficients& c = parent.coefficients;
+  if (!parent.halved)
+    parent.largest = HWY_DYNAMIC_DISPATCH(normalize)(c.high(), c.low(), n, c.stride);
+  if (w.slices.empty()) {
+    w.slices.resize(static_cast<std::size_t>(3 * c.stride * c.stride / 8));
+    for (Coefficients& half : w.halves) half = Coefficients(n);
+  }
+  const double most = parent.largest, underflow = 0x1p-900;
+  double largest[2];
+  if (!halve_rows(c, false, most, n, w.slices, &w.halves[0], &w.halves[1], largest)) return;
+  const double loss = parent.halving_loss + halving_loss(n, most, parent.sum) + underflow;
+  for (int first = 0; first < 2; ++first) {
+    Expansion* child[2] = {w.take(), w.take()};
+    double largest_of[2];
+    const bool done = halve_rows(w.halves[first], true, largest[first], n, w.slices,
+                                 &child[0]->coefficients, &child[1]->coefficients, largest_of);
+    const double losses = (loss + halving_loss(n, largest[first], parent.sum)) * kUp;
+    for (int second = 0; second < 2; ++second) {
+      const int upper_x = parent.rows_axis == 0 ? first : second,
+                upper_y = first + second - upper_x;
+      Node& node = nodes_[first_child + upper_x + 2 * upper_y];
+      Expansion& e = *child[second];
+      Tile* tile = w.tile();
+      place(tile, node.box);
+      if (!done || !is_quarter(*tile, parent.center, parent.half)) {
+        w.give_back(&e);
+        continue;
+      }
+      ++kernel_->expansions;
+      tile->bits = Kernel::kDoubleBits;
+      tile->value_error = precise_error(reach_of(*tile));
+      e.rows_axis = 1 - parent.rows_axis;
+      e.halved = true;
+      e.largest = largest_of[second];
+      e.center = tile->center;
+      e.half = tile->half;
+      e.origin = parent.origin;
+      e.halving_loss = losses;
+      // What the direct expansion lacks, as far as here.
+      Point<2> reach = reach_of(*tile);
+      for (int i = 0; i < 2; ++i) {
+        const double way = std::fabs(tile->center[i] - e.origin[i]);
+        reach[i] = (std::fabs(e.origin[i]) + way + tile->half[i] * Tile::kReach) * kUp;
+      }
+      const double error = precise_error(reach) + losses;
+      const Sums sums = fill(tile, n, e.coefficients, e.rows_axis == 1, error, kRounded);
+      e.sum = (sums.kept + sums.dropped) * kUp;
+      if (error <= kHalvingError * tile->sum)
+        keep(node, &e, sums.dropped);
+      else
+        w.give_back(&e);
+    }
+  }
+}
+
+/// Makes a tile from the polynomial's coefficients, and the expansion that it comes from (in MPFR
+/// only the coefficients of that). Returns the sum of those that the tile has no room for.
+double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* tile,
+                             Expansion* expansion) {
   const int n = f_->degree();
   place(tile, box);
   tile->bits = bits;
+  const Point<2> reach = reach_of(*tile);
+  tile->value_error = precise_error(reach);
+  Coefficients& c = expansion->coefficients;
   if (bits > Kernel::kDoubleBits) {
     const FilteredPolynomial<2>::Taylor taylor = f_->taylor(box, bits, *kernel_);
-    tile->value_error = precise_error(reach_of(*tile));
-    return fill(
-        tile, n,
-        [&](int i, int j) {
-          return taylor.coefficients[static_cast<std::size_t>(i) * (n + 1) + j];
-        },
-        taylor.error * reach_power(n), 0);
+    std::fill_n(c.low(), static_cast<std::size_t>(c.stride) * c.stride, 0.0);
+    for (std::size_t i = 0, rows = static_cast<std::size_t>(n) + 1; i < rows; ++i)
+      std::copy_n(&taylor.coefficients[i * rows], rows - i, c.high() + i * c.stride);
+    return fill(tile, n, c, false, taylor.error * reach_power(n), 0).dropped;
   }
   ++kernel_->expansions;
-  Workspace& w = *workspace_;
-  w.scratch = shifted_in_x(tile->center[0], tile->half[0], in_tree);
-  HWY_DYNAMIC_DISPATCH(shift_and_scale)
-  (w.scratch.high(), w.scratch.low(), n, w.scratch.stride, tile->center[1], tile->half[1]);
-  const int stride = w.scratch.stride;
-  const double *high = w.scratch.high(), *low = w.scratch.low();
+  expand_directly(*tile, in_tree, expansion);
   // What the shifts lose: docs/error-bounds.md.
-  const Point<2> reach = reach_of(*tile);
-  const double shift = precise_error(reach);
-  tile->value_error = shift;
-  return fill(
-      tile, n, [&](int i, int j) { return high[j * stride + i] + low[j * stride + i]; }, shift,
-      0x1.01p-53);
+  const Sums sums = fill(tile, n, c, true, tile->value_error, kRounded);
+  expansion->center = expansion->origin = tile->center;
+  expansion->half = tile->half;
+  expansion->rows_axis = 1;
+  expansion->halved = false;
+  expansion->sum = (sums.kept + sums.dropped) * kUp;
+  expansion->halving_loss = 0x1p-900 * growth(reach, n);
+  // Nothing that is not finite may stay beyond the total degree.
+  if (!std::isfinite(tile->error)) c = Coefficients(n);
+  return sums.dropped;
 }
 
-TiledPolynomial::Coefficients& TiledPolynomial::shifted_in_x(double center, double half,
-                                                             bool in_tree) {
-  Workspace& w = *workspace_;
-  // Tiles of the tree stand in columns.
-  Workspace::Column* column = &w.single;
-  if (in_tree) {
-    for (Workspace::Column& known : w.columns)
-      if (known.center == center && known.half == half) return known.shifted;
-    column = &w.columns.emplace_back();
-  }
-  column->center = center;
-  column->half = half;
+/// The coefficients of y^j in row j, shifted and scaled to the coordinates of a tile.
+void TiledPolynomial::expand_directly(const Tile& tile, bool in_tree, Expansion* expansion) {
   const int n = f_->degree();
-  w.scratch = w.original;
+  Workspace& w = *workspace_;
+  const auto shift_in_x = [&](Coefficients* shifted) {
+    w.scratch = w.original;
+    const int stride = w.scratch.stride;
+    HWY_DYNAMIC_DISPATCH(shift_and_scale)
+    (w.scratch.high(), w.scratch.low(), n, stride, tile.center[0], tile.half[0]);
+    HWY_DYNAMIC_DISPATCH(turn)
+    (w.scratch.high(), w.scratch.low(), n, stride, shifted->high(), shifted->low());
+  };
+  Coefficients& c = expansion->coefficients;
+  if (in_tree) {
+    // Such tiles stand in columns.
+    const auto same = [&](const Workspace::Column& column) {
+      return column.center == tile.center[0] && column.half == tile.half[0];
+    };
+    auto column = std::find_if(w.columns.begin(), w.columns.end(), same);
+    if (column == w.columns.end()) {
+      w.columns.push_back({tile.center[0], tile.half[0], Coefficients(n)});
+      column = w.columns.end() - 1;
+      shift_in_x(&column->shifted);
+    }
+    c = column->shifted;
+  } else {
+    shift_in_x(&c);
+  }
   HWY_DYNAMIC_DISPATCH(shift_and_scale)
-  (w.scratch.high(), w.scratch.low(), n, w.scratch.stride, center, half);
-  column->shifted.transpose(w.scratch, n);
-  return column->shifted;
+  (c.high(), c.low(), n, c.stride, tile.center[1], tile.half[1]);
 }
 
 double TiledPolynomial::precise_error(const Point<2>& reach) const {
-  return 0x1p-86 * f_->absolute(reach) + 0x1p-900 * growth(reach, f_->degree());
+  return 0x1.04p-106 * unheld_roundings(f_->degree()) * f_->absolute(reach) +
+         0x1p-900 * growth(reach, f_->degree());
 }
 
 double TiledPolynomial::value(const Point<2>& point) const {
@@ -431,10 +877,34 @@ double TiledPolynomial::value(const Point<2>& point) const {
                                              point[1]);
 }
 
+void TiledPolynomial::values(const Point<2>* points, int count, double* result) const {
+  Coefficients& c = workspace_->original;
+  alignas(64) double x[8] = {}, y[8] = {}, all[8];
+  for (int k = 0; k < count; ++k) {
+    x[k] = points[k][0];
+    y[k] = points[k][1];
+  }
+  HWY_DYNAMIC_DISPATCH(precise_values)(c.high(), c.low(), f_->degree(), c.stride, x, y, all);
+  std::copy_n(all, count, result);
+}
+
 std::array<double, 3> value_and_gradient(const Tile& tile, const Point<2>& s) {
   std::array<double, 3> result;
   HWY_DYNAMIC_DISPATCH(evaluate)(tile.a[0].data(), tile.degree, s[0], s[1], result.data());
   return result;
+}
+
+void values_and_gradients(const Tile& tile, const Point<2>* s, int count, double* value, double* ds,
+                          double* dt) {
+  alignas(64) double x[8] = {}, y[8] = {}, all[24];
+  for (int k = 0; k < count; ++k) {
+    x[k] = s[k][0];
+    y[k] = s[k][1];
+  }
+  HWY_DYNAMIC_DISPATCH(evaluate_eight)(tile.a[0].data(), tile.degree, x, y, all);
+  std::copy_n(all, count, value);
+  std::copy_n(all + 8, count, ds);
+  std::copy_n(all + 16, count, dt);
 }
 
 }  // namespace encase
