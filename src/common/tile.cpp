@@ -27,7 +27,7 @@ constexpr double reach_power(int k) { return 1 + 0x1.1p-10 * k; }
 
 /// Binomial coefficients: those over k in row k, by the upper number.
 struct Binomials {
-  double over[kMaxHalved + 1][kMaxHalved + 1];
+  double over[kMaxHalved + 2][kMaxHalved + 1];
 };
 constexpr Binomials make_binomials() {
   Binomials b{};
@@ -202,42 +202,66 @@ void split(const double* high, const double* low, int degree, int stride, bool t
     }
 }
 
-/// p((-1 + t) / 2) and p((1 + t) / 2), of which the terms with even and with odd powers of the
-/// shift are added up apart: those of the first two slices without rounding. Returns the largest
-/// coefficients.
+/// Coefficient k of p((t - 1) / 2) and of p((t + 1) / 2): the terms with even and with odd powers
+/// of the shift are added up apart, those of the first two slices without rounding.
+struct HalvedRow {
+  Row even[3], odd[3];
+  HWY_INLINE void clear() {
+    for (int s = 0; s < 3; ++s) even[s] = odd[s] = Row::all(0);
+  }
+  static HWY_INLINE void add(Row* sum, double binomial, const Row* row) {
+    const Row factor = Row::all(binomial);
+    sum[0] = exact_multiply_add(factor, row[0], sum[0]);
+    sum[1] = exact_multiply_add(factor, row[1], sum[1]);
+    sum[2] = sum[2] + factor * row[2];
+  }
+  HWY_INLINE void store(std::size_t to, double* const* high, double* const* low, Row* most) const {
+    for (int half = 0; half < 2; ++half) {
+      Row sum[3], error;
+      for (int s = 0; s < 3; ++s) sum[s] = half == 0 ? even[s] - odd[s] : even[s] + odd[s];
+      const Row whole = exact_sum(sum[0], sum[1], &error), rest = error + sum[2];
+      // Dekker's sum: good enough where the first summand is the smaller one.
+      const Row rounded = whole + rest;
+      rounded.store(high[half] + to);
+      (rest - (rounded - whole)).store(low[half] + to);
+      most[half] = greatest(most[half], absolute(rounded));
+    }
+  }
+};
+
+/// Both halves of all rows, two at a time. Returns their largest coefficients.
 void halve_slices(const double* slices, int degree, int stride, double* const* high,
                   double* const* low, double* largest) {
-  const Row zero = Row::all(0);
-  Row most[2] = {zero, zero};
+  Row most[2] = {Row::all(0), Row::all(0)};
   for (int column = 0; 8 * column <= degree; ++column) {
     const double* rows = slices + 24 * static_cast<std::size_t>(column) * stride;
     const int top = degree - 8 * column;
-    for (int k = 0; k <= top; ++k) {
-      Row even[3] = {zero, zero, zero}, odd[3] = {zero, zero, zero};
-      const double* row = rows + 24 * k;
-      const auto add = [&](int i, Row* sum) {
-        const Row factor = Row::all(kBinomials.over[k][i]);
-        sum[0] = exact_multiply_add(factor, Row::load(row), sum[0]);
-        sum[1] = exact_multiply_add(factor, Row::load(row + 8), sum[1]);
-        sum[2] = sum[2] + factor * Row::load(row + 16);
-        row += 24;
+    for (int k = 0; k <= top; k += 2) {
+      HalvedRow one, next;
+      one.clear();
+      next.clear();
+      const double *binomial = kBinomials.over[k], *binomial_next = kBinomials.over[k + 1];
+      Row row[3];
+      const auto load = [&](int i) {
+        for (int s = 0; s < 3; ++s) row[s] = Row::load(rows + 24 * i + 8 * s);
       };
       int i = k;
       for (; i < top; i += 2) {
-        add(i, even);
-        add(i + 1, odd);
+        load(i);
+        HalvedRow::add(one.even, binomial[i], row);
+        HalvedRow::add(next.odd, binomial_next[i], row);
+        load(i + 1);
+        HalvedRow::add(one.odd, binomial[i + 1], row);
+        HalvedRow::add(next.even, binomial_next[i + 1], row);
       }
-      if (i == top) add(i, even);
+      if (i == top) {
+        load(i);
+        HalvedRow::add(one.even, binomial[i], row);
+        HalvedRow::add(next.odd, binomial_next[i], row);
+      }
       const std::size_t to = static_cast<std::size_t>(k) * stride + 8 * column;
-      for (int half = 0; half < 2; ++half) {
-        Row sum[3], rest;
-        for (int s = 0; s < 3; ++s) sum[s] = half == 0 ? even[s] - odd[s] : even[s] + odd[s];
-        const Row two = exact_sum(sum[0], sum[1], &rest);
-        const Row whole = exact_sum(two, rest + sum[2], &rest);
-        whole.store(high[half] + to);
-        rest.store(low[half] + to);
-        most[half] = greatest(most[half], absolute(whole));
-      }
+      one.store(to, high, low, most);
+      if (k < top) next.store(to + stride, high, low, most);
     }
   }
   for (int half = 0; half < 2; ++half) largest[half] = greatest_lane(most[half]);
