@@ -4,7 +4,9 @@
 #include "common/tile.hpp"
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -87,6 +89,25 @@ void expect_true(const Tile& tile, const FilteredPolynomial<2>& f) {
   for (const Rational& e : bend_error) EXPECT_LE(e, Rational(tile.bend_error));
 }
 
+std::vector<Point<2>> random_points(const Box<2>& box, int count, Random& random) {
+  std::vector<Point<2>> points;
+  for (int k = 0; k < count; ++k) {
+    Point<2> point;
+    for (int i = 0; i < 2; ++i)
+      point[i] = box.lo[i] + box.width(i) * (0.5 + 0.5 * symmetric_random(random));
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// The values at the points, eight at a time.
+std::vector<double> values_at(const TiledPolynomial& f, const std::vector<Point<2>>& points) {
+  std::vector<double> values(points.size());
+  for (std::size_t k = 0; k < points.size(); k += 8)
+    f.values(&points[k], static_cast<int>(std::min<std::size_t>(8, points.size() - k)), &values[k]);
+  return values;
+}
+
 /// A box with corners that are multiples of 2^-40 near (x, y).
 Box<2> box_near(double x, double y, double width, Random& random) {
   Box<2> box;
@@ -132,17 +153,20 @@ TEST_P(TileOfDegree, ValuesAreAsCloseAsTheySay) {
     Kernel kernel;
     const Box<2> root{{-1.5, -1}, {1, 2}};
     TiledPolynomial tiled(f, root, kernel);
-    for (int round = 0; round < 6; ++round) {
-      Point<2> point{-0.25 + 1.25 * symmetric_random(random), 0.5 + 1.5 * symmetric_random(random)};
-      if (round == 0) point = {0, 0};
-      if (round == 1) point = root.hi;
-      const Tile& tile = tiled.at(point);
-      const double value = tiled.value(point);
-      const Rational off = abs(Rational(
-          Rational(value) - exact(RationalPoint<2>{Rational(point[0]), Rational(point[1])})));
-      EXPECT_LE(off, Rational(tile.value_error) + Rational(0x1p-52 * std::fabs(value)));
+    std::vector<Point<2>> points = random_points(root, 6, random);
+    points[0] = {0, 0};
+    points[1] = root.hi;
+    const std::vector<double> values = values_at(tiled, points);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Tile& tile = tiled.at(points[k]);
+      const Rational at_point =
+          exact(RationalPoint<2>{Rational(points[k][0]), Rational(points[k][1])});
+      for (const double value : {tiled.value(points[k]), values[k]}) {
+        const Rational off = abs(Rational(Rational(value) - at_point));
+        EXPECT_LE(off, Rational(tile.value_error) + Rational(0x1p-52 * std::fabs(value)));
+      }
       // It is far better than doubles: a claim that matters.
-      EXPECT_LE(tile.value_error, 0x1p-80 * (degree + 1) * (degree + 1) * std::pow(3.5, degree));
+      EXPECT_LE(tile.value_error, 0x1p-86 * (degree + 1) * (degree + 1) * std::pow(3.5, degree));
     }
   }
 }
@@ -162,10 +186,13 @@ TEST(Tile, PreciseValuesHoldWhereTheyCancel) {
     const double spread = std::ldexp(1.0, -2 * round);
     const Point<2> point{1 / 3.0 + spread * symmetric_random(random),
                          1 / 3.0 + spread * symmetric_random(random)};
-    const double value = tiled.value(point);
-    const Rational off = abs(Rational(
-        Rational(value) - exact(RationalPoint<2>{Rational(point[0]), Rational(point[1])})));
-    EXPECT_LE(off, Rational(tiled.at(point).value_error) + Rational(0x1p-52 * std::fabs(value)));
+    double batch;
+    tiled.values(&point, 1, &batch);
+    for (const double value : {tiled.value(point), batch}) {
+      const Rational off = abs(Rational(
+          Rational(value) - exact(RationalPoint<2>{Rational(point[0]), Rational(point[1])})));
+      EXPECT_LE(off, Rational(tiled.at(point).value_error) + Rational(0x1p-52 * std::fabs(value)));
+    }
   }
 }
 
@@ -189,6 +216,164 @@ TEST(Tile, TheTreeHasATileForEveryPoint) {
     }
     expect_true(tiled.at({0.3, 0.4}), f);
   }
+}
+
+TEST(Tile, TilesOfTheTreeAreAsGoodAsTilesOfTheirOwn) {
+  Random random(6);
+  // The last root has centres that are no halves of another: nothing is halved there. In the one
+  // before tiles near the middle would lose too much if they came from halving.
+  const Box<2> roots[] = {{{-1.03125, -1.03125}, {1.0625, 1.0625}},
+                          {{2.5, -1}, {4.5, 1}},
+                          {{-40, -40}, {40, 40}},
+                          {{-1, -0.1}, {1.1, 1 / 3.0}}};
+  for (const int degree : {16, 20, 24, 30, 31})
+    for (const Box<2>& root : roots) {
+      const FilteredPolynomial<2> f(random_polynomial(degree, degree % 4 == 0, random));
+      Kernel kernel;
+      TiledPolynomial tiled(f, root, kernel);
+      std::vector<Point<2>> points = random_points(root, 4, random);
+      points.push_back(root.lo);
+      points.push_back(root.center());
+      bool first = true;
+      for (const Point<2>& point : points) {
+        const Tile& tile = tiled.at(point);
+        Box<2> box;
+        for (int i = 0; i < 2; ++i) {
+          box.lo[i] = tile.center[i] - tile.half[i];
+          box.hi[i] = tile.center[i] + tile.half[i];
+        }
+        Tile own;
+        tiled.expand(box, 53, &own);
+        if (own.center != tile.center || own.half != tile.half) continue;
+        EXPECT_LE(tile.sum, own.sum * 1.0001);
+        EXPECT_LE(tile.error, own.error * 1.07);
+        EXPECT_LE(tile.slope_error, own.slope_error * 1.5);
+        EXPECT_LE(tile.value_error, own.value_error);
+        for (std::size_t k = 0; k < own.high_terms.size(); ++k)
+          EXPECT_NEAR(tile.high_terms[k], own.high_terms[k], 1e-10 * own.high_terms[k]);
+        if (first || degree == 16) expect_true(tile, f);
+        first = false;
+      }
+    }
+}
+
+TEST(Tile, HalvingLosesLittleWhereNumbersCancel) {
+  // A polynomial that is flat around a point: the tiles there have small coefficients, those of
+  // the rectangles that they are quarters of have large ones.
+  Random random(7);
+  const FilteredPolynomial<2> f(written::polynomial<2>(
+      "((x - 5/8)^2 + (y - 3/8)^2)^9 + (x - 1/3)^6 (x + y - 1)^6 (x - y + 1/16)^8"));
+  for (const Box<2>& root : {Box<2>{{-1, -1}, {1, 1}}, Box<2>{{-8, -8}, {8, 8}}}) {
+    Kernel kernel;
+    TiledPolynomial tiled(f, root, kernel);
+    for (const Point<2>& point :
+         {Point<2>{0.625, 0.375}, Point<2>{0.626, 0.374}, Point<2>{1 / 3.0, 0.39}, root.hi})
+      expect_true(tiled.at(point), f);
+  }
+}
+
+TEST(Tile, HighTermsBoundThoseAroundAnyPoint) {
+  Random random(8);
+  const FilteredPolynomial<2> f(random_polynomial(13, true, random));
+  Kernel kernel;
+  TiledPolynomial tiled(f, {{-0.5, -0.5}, {0.5, 0.5}}, kernel);
+  const Tile& tile = tiled.at({0, 0});
+  for (int k = 8; k <= 15; ++k) {
+    double expected = 0;
+    for (int i = k; i <= tile.degree; ++i) {
+      double binomial = 1;
+      for (int m = 0; m < k; ++m) binomial = binomial * (i - m) / (m + 1);
+      for (int j = 0; i + j <= tile.degree; ++j)
+        expected += binomial * (std::fabs(tile.a[i][j]) + std::fabs(tile.a[j][i]));
+    }
+    EXPECT_GE(tile.high_terms[k - 8], expected);
+    EXPECT_LE(tile.high_terms[k - 8], expected * 1.001);
+  }
+}
+
+TEST(Tile, AValueDoesNotDependOnTheOtherPoints) {
+  Random random(9);
+  for (const int degree : {0, 1, 3, 8, 20}) {
+    const FilteredPolynomial<2> f(random_polynomial(degree, false, random));
+    Kernel kernel;
+    const Box<2> root{{-1, -1}, {1, 1}};
+    TiledPolynomial tiled(f, root, kernel);
+    std::vector<Point<2>> points = random_points(root, 8, random);
+    const std::vector<double> values = values_at(tiled, points);
+    for (int k = 0; k < 8; ++k) {
+      double alone;
+      tiled.values(&points[k], 1, &alone);
+      EXPECT_EQ(alone, values[k]);
+    }
+    // What is not asked for is not written; a point out of range spoils no other.
+    points[2] = {1e300, -1e300};
+    double some[4] = {0, 0, 0, 7};
+    tiled.values(points.data(), 3, some);
+    EXPECT_EQ(some[0], values[0]);
+    EXPECT_EQ(some[1], values[1]);
+    EXPECT_EQ(some[3], 7);
+  }
+}
+
+TEST(Tile, ValuesAndGradientsAtEightPoints) {
+  Random random(10);
+  for (const int degree : {0, 1, 3, 8, 15, 20}) {
+    const FilteredPolynomial<2> f(random_polynomial(degree, true, random));
+    Kernel kernel;
+    TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+    const Tile& tile = tiled.at({0.3, -0.4});
+    const std::vector<Point<2>> points = random_points({{-1, -1}, {1, 1}}, 8, random);
+    double value[8], ds[8], dt[8];
+    values_and_gradients(tile, points.data(), 8, value, ds, dt);
+    for (int k = 0; k < 8; ++k) {
+      const auto jet = value_and_gradient(tile, points[k]);
+      EXPECT_NEAR(value[k], jet[0], 1e-14 * tile.sum);
+      EXPECT_NEAR(ds[k], jet[1], 1e-14 * tile.slope);
+      EXPECT_NEAR(dt[k], jet[2], 1e-14 * tile.slope);
+      double alone[3];
+      values_and_gradients(tile, &points[k], 1, alone, alone + 1, alone + 2);
+      EXPECT_EQ(alone[0], value[k]);
+      EXPECT_EQ(alone[1], ds[k]);
+      EXPECT_EQ(alone[2], dt[k]);
+    }
+  }
+}
+
+TEST(Tile, AreTheSameForEveryInstructionSet) {
+  const auto answers = [] {
+    std::vector<double> all;
+    Random random(11);
+    const Box<2> root{{-1.03125, -1.03125}, {1.0625, 1.0625}};
+    for (const int degree : {0, 3, 7, 8, 15, 16, 20, 23, 30, 35}) {
+      const FilteredPolynomial<2> f(random_polynomial(degree, false, random));
+      Kernel kernel;
+      TiledPolynomial tiled(f, root, kernel);
+      const std::vector<Point<2>> points = random_points(root, 8, random);
+      for (const Point<2>& point : points) {
+        const Tile& tile = tiled.at(point);
+        for (const auto& row : tile.a) all.insert(all.end(), row.begin(), row.end());
+        all.insert(all.end(), tile.high_terms.begin(), tile.high_terms.end());
+        all.insert(all.end(), {tile.sum, tile.slope, tile.bend, tile.error, tile.slope_error,
+                               tile.bend_error, tile.value_error, tiled.value(point)});
+      }
+      double value[8], ds[8], dt[8];
+      tiled.values(points.data(), 8, value);
+      all.insert(all.end(), value, value + 8);
+      values_and_gradients(tiled.at({0, 0}), points.data(), 8, value, ds, dt);
+      all.insert(all.end(), value, value + 8);
+      all.insert(all.end(), ds, ds + 8);
+      all.insert(all.end(), dt, dt + 8);
+    }
+    return all;
+  };
+  const std::vector<double> expected = answers();
+  for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
+    hwy::SetSupportedTargetsForTest(rest & -rest);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_EQ(answers(), expected) << hwy::TargetName(rest & -rest);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(Tile, CoefficientsFarOutsideTheRangeOfDoublesAreScaled) {
