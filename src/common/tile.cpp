@@ -604,7 +604,7 @@ bool halve_rows(Coefficients& from, bool turned, double largest, int n, std::vec
 /// docs/error-bounds.md.
 double halving_loss(int n, double largest, double sum) {
   const double rest = std::ldexp(power_above(largest), 2 * n - 99);
-  return 0x1.2p-53 * ((0.5 * n + 5) * rest + (0.5 * n + 6) * 0x1p-53 * sum);
+  return 0x1.2p-53 * ((0.5 * n + 6) * rest + (0.5 * n + 9) * 0x1p-53 * sum);
 }
 
 /// Whether the tile serves for the whole rectangle: its terms of higher degree do not matter, and
@@ -623,9 +623,9 @@ bool serves(const Tile& tile, double dropped) {
   return dropped <= 0x1p-14 * size && loss <= 0x1p-5 * size;
 }
 
-/// The roundings that sums of two doubles do not hold, in units of the square of the unit roundoff:
-/// docs/error-bounds.md.
-double unheld_roundings(double n) { return (2 * n + 6) * (4 * n + 10) + 2 * n * n + 4; }
+/// What sums of two doubles do not hold of the roundings of a shift or a value, relative to the sum
+/// of absolute values, in units of the square of the unit roundoff: docs/error-bounds.md.
+double unheld_roundings(int n) { return (2 * n + n / 8 + 6) * (4 * n + 66) + 3 * n * n + 2 * n + 4; }
 
 }  // namespace
 
