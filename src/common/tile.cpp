@@ -499,16 +499,20 @@ struct alignas(64) Eight {
   double x[8];
 };
 
-/// Numbers high + low, aligned: rows of coefficients, `stride` apart and as many, or up to 7 more
-/// than there are. Zero beyond the total degree.
+/// Numbers high + low, aligned: rows of coefficients, `stride` apart and as many (up to 7 more than
+/// there are). Zero beyond the total degree, within blocks of eight rows and columns.
 struct Coefficients {
-  std::vector<Eight> memory;
+  Eight* memory = nullptr;
   int stride = 0;
 
-  explicit Coefficients(int n = 0)
-      : memory(static_cast<std::size_t>(n / 8 + 1) * (n / 8 + 1) * 16), stride((n / 8 + 1) * 8) {}
-  double* high() { return memory.data()->x; }
-  double* low() { return high() + 4 * memory.size(); }
+  static int stride_for(int n) { return (n / 8 + 1) * 8; }
+  /// In eights.
+  static std::size_t size_for(int n) {
+    const auto stride = static_cast<std::size_t>(stride_for(n));
+    return stride * stride / 4;
+  }
+  double* high() { return memory->x; }
+  double* low() { return high() + static_cast<std::size_t>(stride) * stride; }
 };
 
 /// (1 + x + y)^n, rounded up.
@@ -587,16 +591,16 @@ bool is_quarter(const Tile& tile, const Point<2>& center, const Point<2>& half) 
 
 /// Halves a rectangle along the variable of the rows (`turned`: of the columns, which become rows).
 /// `largest`: |high| of `from`, then of both halves. False if numbers are too large or small.
-bool halve_rows(Coefficients& from, bool turned, double largest, int n, std::vector<Eight>& slices,
+bool halve_rows(Coefficients& from, bool turned, double largest, int n, double* slices,
                 Coefficients* lower, Coefficients* upper, double* largest_of_both) {
   if (!(0x1p-700 < largest && largest < 0x1p900)) return false;
   const double unit = 0x1p-48 * power_above(largest), finer = std::ldexp(unit, n - 52);
   HWY_DYNAMIC_DISPATCH(split)
-  (from.high(), from.low(), n, from.stride, turned, unit, finer, slices[0].x);
+  (from.high(), from.low(), n, from.stride, turned, unit, finer, slices);
   double* const high[2] = {lower->high(), upper->high()};
   double* const low[2] = {lower->low(), upper->low()};
   HWY_DYNAMIC_DISPATCH(halve_slices)
-  (slices[0].x, n, from.stride, high, low, largest_of_both);
+  (slices, n, from.stride, high, low, largest_of_both);
   return true;
 }
 
@@ -609,7 +613,7 @@ double halving_loss(int n, double largest, double sum) {
 
 /// Whether the tile serves for the whole rectangle: its terms of higher degree do not matter, and
 /// patches some times smaller than the rectangle keep close to it.
-bool serves(const Tile& tile, double dropped) {
+bool tile_serves(const Tile& tile, double dropped) {
   static const auto weights = [] {
     std::array<double, 8> w;
     for (int k = 0; k < 8; ++k) w[k] = std::ldexp(interpolation_loss(8 + k).value, -2 * (8 + k));
@@ -625,7 +629,9 @@ bool serves(const Tile& tile, double dropped) {
 
 /// What sums of two doubles do not hold of the roundings of a shift or a value, relative to the sum
 /// of absolute values, in units of the square of the unit roundoff: docs/error-bounds.md.
-double unheld_roundings(int n) { return (2 * n + n / 8 + 6) * (4 * n + 66) + 3 * n * n + 2 * n + 4; }
+double unheld_roundings(int n) {
+  return (2 * n + n / 8 + 6) * (4 * n + 66) + 3 * n * n + 2 * n + 4;
+}
 
 }  // namespace
 
@@ -649,22 +655,48 @@ struct TiledPolynomial::Workspace {
     Coefficients shifted;  // row j: the coefficients of y^j
   };
 
-  explicit Workspace(int n) : degree(n), original(n), local{Coefficients(n)} {}
+  explicit Workspace(int n) : degree(n) {
+    // (Zeros are needed in the first one only.)
+    const std::size_t size = Coefficients::size_for(n);
+    Eight* memory = allocate(3 * size);
+    std::fill_n(memory->x, 8 * size, 0.0);
+    for (Coefficients* c : {&original, &scratch, &local.coefficients}) {
+      *c = {memory, Coefficients::stride_for(n)};
+      memory += size;
+    }
+  }
+
+  Eight* allocate(std::size_t size) {
+    blocks.push_back(std::make_unique_for_overwrite<Eight[]>(size));
+    return blocks.back().get();
+  }
+
+  /// Memory for coefficients that are to be written below the total degree only.
+  Coefficients coefficients() {
+    const std::size_t size = Coefficients::size_for(degree);
+    Eight* memory = allocate(size);
+    std::fill_n(memory->x, 8 * size, 0.0);
+    return {memory, Coefficients::stride_for(degree)};
+  }
 
   /// The next tile to be made; used when `keep` is called.
   Tile* tile() {
     if (used == room) {
-      room = chunks.empty() ? 1 : std::min(32, 4 * room + 4);
+      room = std::min(32, 4 * room);
       used = 0;
       chunks.push_back(std::make_unique_for_overwrite<Tile[]>(static_cast<std::size_t>(room)));
+      next_tile = chunks.back().get();
     }
-    return &chunks.back()[used];
+    return next_tile;
   }
-  void keep() { ++used; }
+  void keep() {
+    ++used;
+    ++next_tile;
+  }
 
   Expansion* take() {
     if (idle.empty()) {
-      expansions.push_back(std::make_unique<Expansion>(Expansion{Coefficients(degree)}));
+      expansions.push_back(std::make_unique<Expansion>(Expansion{coefficients()}));
       return expansions.back().get();
     }
     Expansion* last = idle.back();
@@ -673,17 +705,26 @@ struct TiledPolynomial::Workspace {
   }
   void give_back(Expansion* expansion) { idle.push_back(expansion); }
 
+  void prepare_halving() {
+    if (slices) return;
+    slices = allocate(Coefficients::size_for(degree) / 2 * 3)->x;
+    for (Coefficients& half : halves) half = coefficients();
+  }
+
   int degree;
-  Coefficients original;        ///< row i: the coefficients of x^i
-  Coefficients scratch;         ///< empty until it is needed
-  Expansion local;              ///< what is made for one tile only
-  std::vector<Column> columns;  ///< shifted in x, for the tiles that stand in one column
-  std::vector<Eight> slices;    ///< for halving
+  std::vector<std::unique_ptr<Eight[]>> blocks;
+  Coefficients original, scratch;  ///< row i: the coefficients of x^i
+  Expansion local;                 ///< the last one that was made directly
+  std::vector<Column> columns;     ///< shifted in x, for the tiles that stand in one column
+  double* slices = nullptr;
   std::array<Coefficients, 2> halves;
-  std::vector<std::unique_ptr<Expansion>> expansions;
+  std::vector<std::unique_ptr<Expansion>> expansions;  ///< of nodes without a tile or children
   std::vector<Expansion*> idle;
+
+  Tile first_tile;
   std::vector<std::unique_ptr<Tile[]>> chunks;
-  int used = 0, room = 0;  ///< of the last chunk
+  Tile* next_tile = &first_tile;
+  int used = 0, room = 1;  ///< of the last chunk
 };
 
 TiledPolynomial::TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel)
@@ -727,13 +768,13 @@ void TiledPolynomial::expand(const Box<2>& box, int bits, Tile* tile) {
 /// Gives a node a tile, or children.
 void TiledPolynomial::develop(int index) {
   Workspace& w = *workspace_;
-  if (!nodes_[index].expansion) {
-    Node& node = nodes_[index];
-    Expansion* expansion = w.take();
-    const double dropped = make(node.box, kernel_->start_bits, node.depth > 0, w.tile(), expansion);
-    if (keep(node, expansion, dropped)) return;
-  }
   Expansion* expansion = std::exchange(nodes_[index].expansion, nullptr);
+  if (!expansion) {
+    Node& node = nodes_[index];
+    Tile* tile = w.tile();
+    const double dropped = make(node.box, kernel_->start_bits, node.depth > 0, tile, &w.local);
+    if (serves(node, *tile, dropped)) return;
+  }
   const int first = static_cast<int>(nodes_.size());
   nodes_[index].first_child = first;
   nodes_.resize(nodes_.size() + 4);
@@ -746,22 +787,16 @@ void TiledPolynomial::develop(int index) {
     child.center = child.box.center();
   }
   if (f_->degree() <= kMaxHalved && kernel_->start_bits <= Kernel::kDoubleBits &&
-      std::isfinite(expansion->sum))
-    halve(*expansion, first);
-  w.give_back(expansion);
+      std::isfinite((expansion ? expansion : &w.local)->sum))
+    halve(expansion ? *expansion : w.local, first);
+  if (expansion) w.give_back(expansion);
 }
 
-/// Keeps the tile just made if it serves, else the expansion. Returns whether it is the tile.
-bool TiledPolynomial::keep(Node& node, Expansion* expansion, double dropped) {
-  Workspace& w = *workspace_;
-  Tile* tile = w.tile();
-  if (node.depth < kMaxDepth && !serves(*tile, dropped)) {
-    node.expansion = expansion;
-    return false;
-  }
-  node.tile = tile;
-  w.keep();
-  w.give_back(expansion);
+/// Whether the tile just made serves for the node: then it is kept.
+bool TiledPolynomial::serves(Node& node, Tile& tile, double dropped) {
+  if (node.depth < kMaxDepth && !tile_serves(tile, dropped)) return false;
+  node.tile = &tile;
+  workspace_->keep();
   return true;
 }
 
@@ -774,10 +809,7 @@ void TiledPolynomial::halve(Expansion& parent, int first_child) {
   Coefficients& c = parent.coefficients;
   if (!parent.halved)
     parent.largest = HWY_DYNAMIC_DISPATCH(normalize)(c.high(), c.low(), n, c.stride);
-  if (w.slices.empty()) {
-    w.slices.resize(static_cast<std::size_t>(3 * c.stride * c.stride / 8));
-    for (Coefficients& half : w.halves) half = Coefficients(n);
-  }
+  w.prepare_halving();
   const double most = parent.largest, underflow = 0x1p-900;
   double largest[2];
   if (!halve_rows(c, false, most, n, w.slices, &w.halves[0], &w.halves[1], largest)) return;
@@ -818,8 +850,8 @@ void TiledPolynomial::halve(Expansion& parent, int first_child) {
       const double error = precise_error(reach) + losses;
       const Sums sums = fill(tile, n, e.coefficients, e.rows_axis == 1, error, kRounded);
       e.sum = (sums.kept + sums.dropped) * kUp;
-      if (error <= kHalvingError * tile->sum)
-        keep(node, &e, sums.dropped);
+      if (error <= kHalvingError * tile->sum && !serves(node, *tile, sums.dropped))
+        node.expansion = &e;
       else
         w.give_back(&e);
     }
@@ -838,7 +870,7 @@ double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* ti
   Coefficients& c = expansion->coefficients;
   if (bits > Kernel::kDoubleBits) {
     const FilteredPolynomial<2>::Taylor taylor = f_->taylor(box, bits, *kernel_);
-    std::fill_n(c.low(), static_cast<std::size_t>(c.stride) * c.stride, 0.0);
+    std::fill_n(c.memory->x, 8 * Coefficients::size_for(n), 0.0);
     for (std::size_t i = 0, rows = static_cast<std::size_t>(n) + 1; i < rows; ++i)
       std::copy_n(&taylor.coefficients[i * rows], rows - i, c.high() + i * c.stride);
     return fill(tile, n, c, false, taylor.error * reach_power(n), 0).dropped;
@@ -853,8 +885,6 @@ double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* ti
   expansion->halved = false;
   expansion->sum = (sums.kept + sums.dropped) * kUp;
   expansion->halving_loss = 0x1p-900 * growth(reach, n);
-  // Nothing that is not finite may stay beyond the total degree.
-  if (!std::isfinite(tile->error)) c = Coefficients(n);
   return sums.dropped;
 }
 
@@ -862,15 +892,15 @@ double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* ti
 void TiledPolynomial::expand_directly(const Tile& tile, bool in_tree, Expansion* expansion) {
   const int n = f_->degree();
   Workspace& w = *workspace_;
-  const auto shift_in_x = [&](Coefficients* shifted) {
-    w.scratch = w.original;
-    const int stride = w.scratch.stride;
+  Coefficients c = expansion->coefficients;
+  const std::size_t size = Coefficients::size_for(n);
+  const auto shift_in_x = [&](Coefficients shifted) {
+    std::copy_n(w.original.memory, size, w.scratch.memory);
     HWY_DYNAMIC_DISPATCH(shift_and_scale)
-    (w.scratch.high(), w.scratch.low(), n, stride, tile.center[0], tile.half[0]);
+    (w.scratch.high(), w.scratch.low(), n, c.stride, tile.center[0], tile.half[0]);
     HWY_DYNAMIC_DISPATCH(turn)
-    (w.scratch.high(), w.scratch.low(), n, stride, shifted->high(), shifted->low());
+    (w.scratch.high(), w.scratch.low(), n, c.stride, shifted.high(), shifted.low());
   };
-  Coefficients& c = expansion->coefficients;
   if (in_tree) {
     // Such tiles stand in columns.
     const auto same = [&](const Workspace::Column& column) {
@@ -878,13 +908,13 @@ void TiledPolynomial::expand_directly(const Tile& tile, bool in_tree, Expansion*
     };
     auto column = std::find_if(w.columns.begin(), w.columns.end(), same);
     if (column == w.columns.end()) {
-      w.columns.push_back({tile.center[0], tile.half[0], Coefficients(n)});
+      w.columns.push_back({tile.center[0], tile.half[0], w.coefficients()});
       column = w.columns.end() - 1;
-      shift_in_x(&column->shifted);
+      shift_in_x(column->shifted);
     }
-    c = column->shifted;
+    std::copy_n(column->shifted.memory, size, c.memory);
   } else {
-    shift_in_x(&c);
+    shift_in_x(c);
   }
   HWY_DYNAMIC_DISPATCH(shift_and_scale)
   (c.high(), c.low(), n, c.stride, tile.center[1], tile.half[1]);

@@ -82,7 +82,7 @@ class TiledPolynomial {
   struct Workspace;
   void develop(int node);
   void halve(Expansion& parent, int first_child);
-  bool keep(Node& node, Expansion* expansion, double dropped);
+  bool serves(Node& node, Tile& tile, double dropped);
   double make(const Box<2>& box, int bits, bool in_tree, Tile* tile, Expansion* expansion);
   void expand_directly(const Tile& tile, bool in_tree, Expansion* expansion);
   /// What arithmetic with sums of two doubles loses within reach: docs/error-bounds.md.
