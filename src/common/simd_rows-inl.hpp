@@ -176,11 +176,23 @@ HWY_INLINE Row exact_product(const Row& x, const Row& y, Row* error) {
 #endif
   return product;
 }
+/// x - y, where it can be chosen in the units that multiply: most have as many of these as of those
+/// that only add, which sums of two doubles keep busier.
+HWY_INLINE Row minus(const Row& x, const Row& y) {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  Row r;
+  for (int k = 0; k < kParts; ++k)
+    r.part[k] = hn::MulSub(x.part[k], hn::Set(Lanes(), 1.0), y.part[k]);
+  return r;
+#else
+  return x - y;
+#endif
+}
 /// x + y = sum + error exactly (Knuth).
 HWY_INLINE Row exact_sum(const Row& x, const Row& y, Row* error) {
   const Row sum = x + y;
-  const Row y1 = sum - x;
-  *error = (x - (sum - y1)) + (y - y1);
+  const Row y1 = minus(sum, x);
+  *error = (x - minus(sum, y1)) + minus(y, y1);
   return sum;
 }
 

@@ -80,19 +80,26 @@ struct TileSums {
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
-/// row += x * next, of numbers high + low: the rounding errors of the high parts go to the low
-/// ones.
-HWY_INLINE void add_multiple(double* high, double* low, double x, const double* next_high,
-                             const double* next_low, int count) {
-  const Row factor = Row::all(x);
-  for (int j = 0; j < count; j += 8) {
-    Row product_error, sum_error;
-    const Row product = exact_product(Row::load(next_high + j), factor, &product_error);
-    const Row sum = exact_sum(Row::load(high + j), product, &sum_error);
-    const Row rest = Row::load(low + j) + factor * Row::load(next_low + j);
-    sum.store(high + j);
-    (rest + (product_error + sum_error)).store(low + j);
+/// A vector of numbers high + low.
+struct Pair {
+  Row high, low;
+  static HWY_INLINE Pair load(const double* high, const double* low) {
+    return {Row::load(high), Row::load(low)};
   }
+  HWY_INLINE void store(double* to_high, double* to_low) const {
+    high.store(to_high);
+    low.store(to_low);
+  }
+};
+
+/// sum + x * next: the rounding errors of the high parts go to the low ones.
+HWY_INLINE Pair add_multiple(const Pair& sum, const Row& x, const Pair& next) {
+  Row product_error, sum_error;
+  const Row product = exact_product(next.high, x, &product_error);
+  Pair r;
+  r.high = exact_sum(sum.high, product, &sum_error);
+  r.low = (sum.low + x * next.low) + (product_error + sum_error);
+  return r;
 }
 
 /// row *= factor + factor_rest, likewise.
@@ -112,15 +119,25 @@ HWY_INLINE void multiply(double* high, double* low, double factor, double factor
 void shift_and_scale(double* high, double* low, int degree, int stride, double origin,
                      double half) {
   if (origin != 0) {
-    // Synthetic division, by the antidiagonals of its table: the steps of one do not wait for each
-    // other.
-    for (int level = 0; level < degree; ++level)
-      for (int i = 0; i <= level; ++i) {
-        const int k = degree - 1 - level + i;
-        const std::size_t row = static_cast<std::size_t>(k) * stride, next = row + stride;
-        add_multiple(high + row, low + row, origin, high + next, low + next, degree - k);
+    // Synthetic division, two levels at a time: eight columns by themselves, which end at row top.
+    const Row x = Row::all(origin);
+    for (int column = 0; column < degree; column += 8) {
+      const int top = degree - column;
+      const auto at = [&](int k) { return static_cast<std::size_t>(k) * stride + column; };
+      for (int level = 0; level < top; level += 2) {
+        const Pair last = Pair::load(high + at(top), low + at(top));
+        Pair first = last, second = last;
+        for (int k = top - 1; k > level; --k) {
+          first = add_multiple(Pair::load(high + at(k), low + at(k)), x, first);
+          second = add_multiple(first, x, second);
+          second.store(high + at(k), low + at(k));
+        }
+        first = add_multiple(Pair::load(high + at(level), low + at(level)), x, first);
+        first.store(high + at(level), low + at(level));
       }
+    }
   }
+  if (half == 1) return;
   double power = 1, power_rest = 0;
   for (int i = 1; i <= degree; ++i) {
     // power *= half
@@ -366,10 +383,6 @@ void evaluate(const double* a, int degree, double s, double t, double* result) {
   result[2] = slope_t;
 }
 
-/// A vector of numbers high + low.
-struct Pair {
-  Row high, low;
-};
 HWY_INLINE Pair multiply(const Pair& a, const Pair& b) {
   Pair r;
   r.high = exact_product(a.high, b.high, &r.low);
