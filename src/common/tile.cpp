@@ -468,16 +468,34 @@ void precise_values(const double* high, const double* low, int degree, int strid
 void evaluate_eight(const double* a, int degree, const double* s, const double* t, double* result) {
   const Row zero = Row::all(0), at_s = Row::load(s), at_t = Row::load(t);
   Row value = zero, ds = zero, dt = zero;
-  for (int i = degree; i >= 0; --i) {
-    const double* row = a + i * Tile::kRow;
-    Row inner = zero, slope = zero;
-    for (int j = degree - i; j >= 0; --j) {
-      slope = slope * at_t + inner;
-      inner = inner * at_t + Row::all(row[j]);
-    }
+  const auto add_row = [&](const Row& sum, const Row& slope) {
     ds = ds * at_s + value;
-    value = value * at_s + inner;
+    value = value * at_s + sum;
     dt = dt * at_s + slope;
+  };
+  // Two rows at a time: their sums do not wait for each other.
+  int i = degree;
+  for (; i > 0; i -= 2) {
+    const double *row = a + i * Tile::kRow, *next = row - Tile::kRow;
+    int j = degree - i;
+    Row sum = Row::all(row[j]), slope = zero;
+    Row next_slope = Row::all(next[j + 1]), next_sum = next_slope * at_t + Row::all(next[j]);
+    while (--j >= 0) {
+      slope = slope * at_t + sum;
+      sum = sum * at_t + Row::all(row[j]);
+      next_slope = next_slope * at_t + next_sum;
+      next_sum = next_sum * at_t + Row::all(next[j]);
+    }
+    add_row(sum, slope);
+    add_row(next_sum, next_slope);
+  }
+  if (i == 0) {
+    Row sum = Row::all(a[degree]), slope = zero;
+    for (int j = degree - 1; j >= 0; --j) {
+      slope = slope * at_t + sum;
+      sum = sum * at_t + Row::all(a[j]);
+    }
+    add_row(sum, slope);
   }
   value.store(result);
   ds.store(result + 8);
@@ -546,6 +564,7 @@ Point<2> reach_of(const Tile& tile) {
 /// Nothing is known of a tile where numbers overflow.
 void claim_nothing(Tile* tile) {
   for (auto& row : tile->a) row.fill(0.0);
+  tile->high_terms.fill(0.0);
   tile->sum = tile->slope = tile->bend = 0;
   tile->error = tile->slope_error = tile->bend_error = tile->value_error =
       std::numeric_limits<double>::infinity();
@@ -593,12 +612,16 @@ void place(Tile* tile, const Box<2>& box) {
   }
 }
 
-/// Whether the coordinates of a tile are those of a quarter of a rectangle, exactly.
-bool is_quarter(const Tile& tile, const Point<2>& center, const Point<2>& half) {
-  for (int i = 0; i < 2; ++i)
-    if (tile.half[i] != 0.5 * half[i] || std::fabs(tile.center[i] - center[i]) != tile.half[i] ||
-        !exact_difference(tile.center[i], center[i]))
+/// Whether the coordinates of a box are exactly those of a quarter of a rectangle, the upper one
+/// along the axes that have their bit in `upper`.
+bool is_quarter(const Box<2>& box, int upper, const Point<2>& center, const Point<2>& half) {
+  for (int i = 0; i < 2; ++i) {
+    const Centered chart = centered(box.lo[i], box.hi[i]);
+    const double step = (upper >> i) % 2 ? chart.half : -chart.half;
+    if (chart.half != 0.5 * half[i] || chart.center - center[i] != step ||
+        !exact_difference(chart.center, center[i]))
       return false;
+  }
   return true;
 }
 
@@ -813,10 +836,12 @@ bool TiledPolynomial::serves(Node& node, Tile& tile, double dropped) {
   return true;
 }
 
-/// Halves an expansion along both axes, for the four children of its node. A child whose
-/// coordinates are not exactly those of a quarter, or that would lose too much, gets nothing: it is
-/// made from the coefficients of f if it is asked for.
+/// Halves an expansion along both axes, for the four children of its node, if their coordinates are
+/// exactly those of quarters. A child that would lose too much gets nothing: it is made from the
+/// coefficients of f if it is asked for.
 void TiledPolynomial::halve(Expansion& parent, int first_child) {
+  for (int k = 0; k < 4; ++k)
+    if (!is_quarter(nodes_[first_child + k].box, k, parent.center, parent.half)) return;
   const int n = f_->degree();
   Workspace& w = *workspace_;
   Coefficients& c = parent.coefficients;
@@ -834,17 +859,16 @@ void TiledPolynomial::halve(Expansion& parent, int first_child) {
                                  &child[0]->coefficients, &child[1]->coefficients, largest_of);
     const double losses = (loss + halving_loss(n, largest[first], parent.sum)) * kUp;
     for (int second = 0; second < 2; ++second) {
-      const int upper_x = parent.rows_axis == 0 ? first : second,
-                upper_y = first + second - upper_x;
-      Node& node = nodes_[first_child + upper_x + 2 * upper_y];
+      const int upper = parent.rows_axis == 0 ? first + 2 * second : 2 * first + second;
+      Node& node = nodes_[first_child + upper];
       Expansion& e = *child[second];
-      Tile* tile = w.tile();
-      place(tile, node.box);
-      if (!done || !is_quarter(*tile, parent.center, parent.half)) {
+      if (!done) {
         w.give_back(&e);
         continue;
       }
       ++kernel_->expansions;
+      Tile* tile = w.tile();
+      place(tile, node.box);
       tile->bits = Kernel::kDoubleBits;
       tile->value_error = precise_error(reach_of(*tile));
       e.rows_axis = 1 - parent.rows_axis;
@@ -855,7 +879,7 @@ void TiledPolynomial::halve(Expansion& parent, int first_child) {
       e.origin = parent.origin;
       e.halving_loss = losses;
       // What the direct expansion lacks, as far as here.
-      Point<2> reach = reach_of(*tile);
+      Point<2> reach;
       for (int i = 0; i < 2; ++i) {
         const double way = std::fabs(tile->center[i] - e.origin[i]);
         reach[i] = (std::fabs(e.origin[i]) + way + tile->half[i] * Tile::kReach) * kUp;

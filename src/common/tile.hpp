@@ -43,7 +43,8 @@ struct Tile {
 };
 
 /// A polynomial with tiles that cover a box: one where its degree is low or the box is small, else
-/// a quadtree of them, each made when it is first asked for. Not shared between threads.
+/// a quadtree of them, four of which are made when one is first asked for. Not shared between
+/// threads.
 class TiledPolynomial {
  public:
   TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel);
