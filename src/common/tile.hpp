@@ -8,6 +8,7 @@
 #include "common/filtered_polynomial.hpp"
 #include "common/interval.hpp"
 #include "common/kernel.hpp"
+#include "common/paired_coefficients.hpp"
 #include "encase/geometry.hpp"
 
 namespace encase {
@@ -23,6 +24,8 @@ struct Tile {
   static constexpr int kMaxDegree = 15;
   static constexpr int kRow = kMaxDegree + 1;
   static constexpr double kReach = 1 + 0x1p-10;
+  /// At least kReach^k, for k up to 60.
+  static constexpr double reach_power(int k) { return 1 + 0x1.1p-10 * k; }
 
   Point<2> center{};
   Point<2> half{};
@@ -41,6 +44,17 @@ struct Tile {
   /// the absolute values of the terms with s_0^(8+k), and with s_1^(8+k), around any point.
   std::array<double, kMaxDegree - 7> high_terms{};
 };
+
+/// Sums of the absolute values of coefficients, times kReach^degree: of those that a tile has and
+/// that it has no room for.
+struct CoefficientSums {
+  double kept = 0, dropped = 0;
+};
+/// Makes a tile, but for its place and `value_error`, of Taylor coefficients of a polynomial of
+/// degree n, the errors of which add up to at most `error`; each is rounded to a relative
+/// `relative`. `turned`: their rows are those of the second variable.
+CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, bool turned,
+                     double error, double relative);
 
 /// A polynomial with tiles that cover a box: one where its degree is low or the box is small, else
 /// a quadtree of them, four of which are made when one is first asked for. Not shared between

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/paired_coefficients.hpp"
+#include "common/patch.hpp"
+#include "common/tile.hpp"
+
+namespace encase {
+namespace {
+
+constexpr double kUp = 1 + 0x1p-40;  // outweighs the roundings of the sums it multiplies
+constexpr int kMaxDepth = 8;         // of the quadtree of tiles
+// The error that a tile of the tree may have from halving, beside the sum of its coefficients.
+constexpr double kHalvingError = 0x1p-57;
+constexpr double kRounded = 0x1.01p-53;  // relative: of a sum of two doubles that becomes one
+
+/// (1 + x + y)^n, rounded up.
+double growth(const Point<2>& reach, int n) {
+  double result = 1, power = (1 + reach[0] + reach[1]) * kUp;
+  for (int rest = n; rest > 0; rest /= 2, power *= power * kUp)
+    if (rest % 2) result *= power * kUp;
+  return result;
+}
+
+Point<2> reach_of(const Tile& tile) {
+  Point<2> reach;
+  for (int i = 0; i < 2; ++i)
+    reach[i] = (std::fabs(tile.center[i]) + tile.half[i] * Tile::kReach) * kUp;
+  return reach;
+}
+
+void place(Tile* tile, const Box<2>& box) {
+  for (int i = 0; i < 2; ++i) {
+    const Centered chart = centered(box.lo[i], box.hi[i]);
+    tile->center[i] = chart.center;
+    tile->half[i] = chart.half;
+  }
+}
+
+/// Whether the coordinates of a box are exactly those of a quarter of a rectangle, the upper one
+/// along the axes that have their bit in `upper`.
+bool is_quarter(const Box<2>& box, int upper, const Point<2>& center, const Point<2>& half) {
+  for (int i = 0; i < 2; ++i) {
+    const Centered chart = centered(box.lo[i], box.hi[i]);
+    const double step = (upper >> i) % 2 ? chart.half : -chart.half;
+    if (chart.half != 0.5 * half[i] || chart.center - center[i] != step ||
+        !exact_difference(chart.center, center[i]))
+      return false;
+  }
+  return true;
+}
+
+/// Whether the tile serves for the whole rectangle: its terms of higher degree do not matter, and
+/// patches some times smaller than the rectangle keep close to it.
+bool tile_serves(const Tile& tile, double dropped) {
+  static const auto weights = [] {
+    std::array<double, 8> w;
+    for (int k = 0; k < 8; ++k) w[k] = std::ldexp(interpolation_loss(8 + k).value, -2 * (8 + k));
+    return w;
+  }();
+  double size = 0;
+  for (int i = 0; i <= 2; ++i)
+    for (int j = 0; i + j <= 2; ++j) size += std::fabs(tile.a[i][j]);
+  double loss = 0;
+  for (int k = 0; k < 8; ++k) loss += weights[k] * tile.high_terms[k];
+  return dropped <= 0x1p-14 * size && loss <= 0x1p-5 * size;
+}
+
+}  // namespace
+
+/// A polynomial in the coordinates of a node of the tree.
+struct TiledPolynomial::Expansion {
+  PairedCoefficients coefficients;
+  Point<2> center{}, half{};
+  int rows_axis = 0;    ///< 0: the coefficients of a power of x are a row; 1: of y
+  bool halved = false;  ///< comes from halving: low is what high lacks
+  double largest = 0;   ///< |high|, if `halved`
+  double sum = 0;       ///< at least the coefficients' absolute values, times kReach^degree
+  // What bounds their errors, added up likewise:
+  Point<2> origin{};        ///< the centre of the expansion made directly that this comes from
+  double halving_loss = 0;  ///< of the halvings since, and what underflows
+};
+
+/// What the expansions of one polynomial share, and the memory of its tiles.
+struct TiledPolynomial::Workspace {
+  struct Column {
+    double center, half;
+    PairedCoefficients shifted;  // row j: the coefficients of y^j
+  };
+
+  explicit Workspace(int n) : degree(n) {
+    // (Zeros are needed in the first one only.)
+    const std::size_t size = PairedCoefficients::size_for(n);
+    EightDoubles* memory = allocate(3 * size);
+    std::fill_n(memory->x, 8 * size, 0.0);
+    for (PairedCoefficients* c : {&original, &scratch, &local.coefficients}) {
+      *c = {memory, PairedCoefficients::stride_for(n)};
+      memory += size;
+    }
+  }
+
+  EightDoubles* allocate(std::size_t size) {
+    blocks.push_back(std::make_unique_for_overwrite<EightDoubles[]>(size));
+    return blocks.back().get();
+  }
+
+  /// Memory for coefficients that are to be written below the total degree only.
+  PairedCoefficients coefficients() {
+    const std::size_t size = PairedCoefficients::size_for(degree);
+    EightDoubles* memory = allocate(size);
+    std::fill_n(memory->x, 8 * size, 0.0);
+    return {memory, PairedCoefficients::stride_for(degree)};
+  }
+
+  /// The next tile to be made; used when `keep` is called.
+  Tile* tile() {
+    if (used == room) {
+      room = std::min(32, 4 * room);
+      used = 0;
+      chunks.push_back(std::make_unique_for_overwrite<Tile[]>(static_cast<std::size_t>(room)));
+      next_tile = chunks.back().get();
+    }
+    return next_tile;
+  }
+  void keep() {
+    ++used;
+    ++next_tile;
+  }
+
+  Expansion* take() {
+    if (idle.empty()) {
+      expansions.push_back(std::make_unique<Expansion>(Expansion{coefficients()}));
+      return expansions.back().get();
+    }
+    Expansion* last = idle.back();
+    idle.pop_back();
+    return last;
+  }
+  void give_back(Expansion* expansion) { idle.push_back(expansion); }
+
+  void prepare_halving() {
+    if (slices) return;
+    slices = allocate(PairedCoefficients::size_for(degree) / 2 * 3)->x;
+    for (PairedCoefficients& half : halves) half = coefficients();
+  }
+
+  int degree;
+  std::vector<std::unique_ptr<EightDoubles[]>> blocks;
+  PairedCoefficients original, scratch;  ///< row i: the coefficients of x^i
+  Expansion local;                       ///< the last one that was made directly
+  std::vector<Column> columns;           ///< shifted in x, for the tiles that stand in one column
+  double* slices = nullptr;
+  std::array<PairedCoefficients, 2> halves;
+  std::vector<std::unique_ptr<Expansion>> expansions;  ///< of nodes without a tile or children
+  std::vector<Expansion*> idle;
+
+  Tile first_tile;
+  std::vector<std::unique_ptr<Tile[]>> chunks;
+  Tile* next_tile = &first_tile;
+  int used = 0, room = 1;  ///< of the last chunk
+};
+
+TiledPolynomial::TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel)
+    : f_(&f),
+      kernel_(&kernel),
+      root_(box),
+      nodes_(1),
+      workspace_(std::make_unique<Workspace>(f.degree())) {
+  const std::size_t n = static_cast<std::size_t>(f.degree());
+  PairedCoefficients& original = workspace_->original;
+  const std::size_t stride = static_cast<std::size_t>(original.stride);
+  const double *high = f.coefficients().data(), *low = f.low_coefficients().data();
+  for (std::size_t i = 0; i <= n; ++i) {
+    std::copy_n(high + i * (n + 1), n + 1 - i, original.high() + i * stride);
+    std::copy_n(low + i * (n + 1), n + 1 - i, original.low() + i * stride);
+  }
+  nodes_[0].box = box;
+  nodes_[0].center = box.center();
+}
+
+TiledPolynomial::TiledPolynomial(TiledPolynomial&&) noexcept = default;
+TiledPolynomial::~TiledPolynomial() = default;
+
+const Tile& TiledPolynomial::at(const Point<2>& point) {
+  int node = 0;
+  while (!nodes_[node].tile) {
+    if (nodes_[node].first_child < 0) {
+      develop(node);
+      continue;
+    }
+    const Point<2>& center = nodes_[node].center;
+    node = nodes_[node].first_child + (point[0] > center[0]) + 2 * (point[1] > center[1]);
+  }
+  return *nodes_[node].tile;
+}
+
+void TiledPolynomial::expand(const Box<2>& box, int bits, Tile* tile) {
+  make(box, bits, false, tile, &workspace_->local);
+}
+
+/// Gives a node a tile, or children.
+void TiledPolynomial::develop(int index) {
+  Workspace& w = *workspace_;
+  Expansion* expansion = std::exchange(nodes_[index].expansion, nullptr);
+  if (!expansion) {
+    Node& node = nodes_[index];
+    Tile* tile = w.tile();
+    const double dropped = make(node.box, kernel_->start_bits, node.depth > 0, tile, &w.local);
+    if (serves(node, *tile, dropped)) return;
+  }
+  const int first = static_cast<int>(nodes_.size());
+  nodes_[index].first_child = first;
+  nodes_.resize(nodes_.size() + 4);
+  const Node& node = nodes_[index];
+  for (int k = 0; k < 4; ++k) {
+    Node& child = nodes_[first + k];
+    child.depth = node.depth + 1;
+    child.box = node.box;
+    for (int i = 0; i < 2; ++i) ((k >> i) % 2 ? child.box.lo : child.box.hi)[i] = node.center[i];
+    child.center = child.box.center();
+  }
+  if (f_->degree() <= kMaxHalved && kernel_->start_bits <= Kernel::kDoubleBits &&
+      std::isfinite((expansion ? expansion : &w.local)->sum))
+    halve(expansion ? *expansion : w.local, first);
+  if (expansion) w.give_back(expansion);
+}
+
+/// Whether the tile just made serves for the node: then it is kept.
+bool TiledPolynomial::serves(Node& node, Tile& tile, double dropped) {
+  if (node.depth < kMaxDepth && !tile_serves(tile, dropped)) return false;
+  node.tile = &tile;
+  workspace_->keep();
+  return true;
+}
+
+/// Halves an expansion along both axes, for the four children of its node, if their coordinates are
+/// exactly those of quarters. A child that would lose too much gets nothing: it is made from the
+/// coefficients of f if it is asked for.
+void TiledPolynomial::halve(Expansion& parent, int first_child) {
+  for (int k = 0; k < 4; ++k)
+    if (!is_quarter(nodes_[first_child + k].box, k, parent.center, parent.half)) return;
+  const int n = f_->degree();
+  Workspace& w = *workspace_;
+  PairedCoefficients& c = parent.coefficients;
+  if (!parent.halved) parent.largest = normalize(c, n);
+  w.prepare_halving();
+  const double most = parent.largest, underflow = 0x1p-900;
+  double largest[2];
+  if (!halve_rows(c, false, most, n, w.slices, w.halves[0], w.halves[1], largest)) return;
+  const double loss = parent.halving_loss + halving_loss(n, most, parent.sum) + underflow;
+  for (int first = 0; first < 2; ++first) {
+    Expansion* child[2] = {w.take(), w.take()};
+    double largest_of[2];
+    const bool done = halve_rows(w.halves[first], true, largest[first], n, w.slices,
+                                 child[0]->coefficients, child[1]->coefficients, largest_of);
+    const double losses = (loss + halving_loss(n, largest[first], parent.sum)) * kUp;
+    for (int second = 0; second < 2; ++second) {
+      const int upper = parent.rows_axis == 0 ? first + 2 * second : 2 * first + second;
+      Node& node = nodes_[first_child + upper];
+      Expansion& e = *child[second];
+      if (!done) {
+        w.give_back(&e);
+        continue;
+      }
+      ++kernel_->expansions;
+      Tile* tile = w.tile();
+      place(tile, node.box);
+      tile->bits = Kernel::kDoubleBits;
+      tile->value_error = precise_error(reach_of(*tile));
+      e.rows_axis = 1 - parent.rows_axis;
+      e.halved = true;
+      e.largest = largest_of[second];
+      e.center = tile->center;
+      e.half = tile->half;
+      e.origin = parent.origin;
+      e.halving_loss = losses;
+      // What the direct expansion lacks, as far as here.
+      Point<2> reach;
+      for (int i = 0; i < 2; ++i) {
+        const double way = std::fabs(tile->center[i] - e.origin[i]);
+        reach[i] = (std::fabs(e.origin[i]) + way + tile->half[i] * Tile::kReach) * kUp;
+      }
+      const double error = precise_error(reach) + losses;
+      const CoefficientSums sums = fill(tile, n, e.coefficients, e.rows_axis == 1, error, kRounded);
+      e.sum = (sums.kept + sums.dropped) * kUp;
+      if (error <= kHalvingError * tile->sum && !serves(node, *tile, sums.dropped))
+        node.expansion = &e;
+      else
+        w.give_back(&e);
+    }
+  }
+}
+
+/// Makes a tile from the polynomial's coefficients, and the expansion that it comes from (in MPFR
+/// only the coefficients of that). Returns the sum of those that the tile has no room for.
+double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* tile,
+                             Expansion* expansion) {
+  const int n = f_->degree();
+  place(tile, box);
+  tile->bits = bits;
+  const Point<2> reach = reach_of(*tile);
+  tile->value_error = precise_error(reach);
+  PairedCoefficients& c = expansion->coefficients;
+  if (bits > Kernel::kDoubleBits) {
+    const FilteredPolynomial<2>::Taylor taylor = f_->taylor(box, bits, *kernel_);
+    std::fill_n(c.memory->x, 8 * PairedCoefficients::size_for(n), 0.0);
+    for (std::size_t i = 0, rows = static_cast<std::size_t>(n) + 1; i < rows; ++i)
+      std::copy_n(&taylor.coefficients[i * rows], rows - i, c.high() + i * c.stride);
+    return fill(tile, n, c, false, taylor.error * Tile::reach_power(n), 0).dropped;
+  }
+  ++kernel_->expansions;
+  expand_directly(*tile, in_tree, expansion);
+  // What the shifts lose: docs/error-bounds.md.
+  const CoefficientSums sums = fill(tile, n, c, true, tile->value_error, kRounded);
+  expansion->center = expansion->origin = tile->center;
+  expansion->half = tile->half;
+  expansion->rows_axis = 1;
+  expansion->halved = false;
+  expansion->sum = (sums.kept + sums.dropped) * kUp;
+  expansion->halving_loss = 0x1p-900 * growth(reach, n);
+  return sums.dropped;
+}
+
+/// The coefficients of y^j in row j, shifted and scaled to the coordinates of a tile.
+void TiledPolynomial::expand_directly(const Tile& tile, bool in_tree, Expansion* expansion) {
+  const int n = f_->degree();
+  Workspace& w = *workspace_;
+  PairedCoefficients c = expansion->coefficients;
+  const std::size_t size = PairedCoefficients::size_for(n);
+  const auto shift_in_x = [&](PairedCoefficients shifted) {
+    std::copy_n(w.original.memory, size, w.scratch.memory);
+    shift_and_scale(w.scratch, n, tile.center[0], tile.half[0]);
+    turn(w.scratch, n, shifted);
+  };
+  if (in_tree) {
+    // Such tiles stand in columns.
+    const auto same = [&](const Workspace::Column& column) {
+      return column.center == tile.center[0] && column.half == tile.half[0];
+    };
+    auto column = std::find_if(w.columns.begin(), w.columns.end(), same);
+    if (column == w.columns.end()) {
+      w.columns.push_back({tile.center[0], tile.half[0], w.coefficients()});
+      column = w.columns.end() - 1;
+      shift_in_x(column->shifted);
+    }
+    std::copy_n(column->shifted.memory, size, c.memory);
+  } else {
+    shift_in_x(c);
+  }
+  shift_and_scale(c, n, tile.center[1], tile.half[1]);
+}
+
+double TiledPolynomial::precise_error(const Point<2>& reach) const {
+  return 0x1.04p-106 * unheld_roundings(f_->degree()) * f_->absolute(reach) +
+         0x1p-900 * growth(reach, f_->degree());
+}
+
+double TiledPolynomial::value(const Point<2>& point) const {
+  return precise_value(workspace_->original, f_->degree(), point[0], point[1]);
+}
+
+void TiledPolynomial::values(const Point<2>* points, int count, double* result) const {
+  alignas(64) double x[8] = {}, y[8] = {}, all[8];
+  for (int k = 0; k < count; ++k) {
+    x[k] = points[k][0];
+    y[k] = points[k][1];
+  }
+  precise_values(workspace_->original, f_->degree(), x, y, all);
+  std::copy_n(all, count, result);
+}
+
+}  // namespace encase
