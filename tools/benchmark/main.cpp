@@ -3,9 +3,11 @@
 // The command `encase_benchmark`: times of Encase, beside CGAL's where that is found; one thread,
 // CPU time, random pairs as in thesis 5.1. docs/benchmarks.md explains the tables.
 #include <fmt/format.h>
+#include <hwy/targets.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -47,6 +49,24 @@ const std::vector<Section>& sections() {
   return list;
 }
 
+/// The instruction sets that Encase can use here, the best first.
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    names.emplace_back(hwy::TargetName(target));
+  return names;
+}
+
+/// Lets Encase use one of them only.
+void use_instructions(const std::string& name) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    if (hwy::TargetName(target) != name) continue;
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(target);
+    return;
+  }
+}
+
 int fail(const std::string& message) {
   std::fflush(stdout);
   std::fprintf(stderr, "encase_benchmark: %s\n", message.c_str());
@@ -63,11 +83,12 @@ std::string processor(const std::string& name) {
 
 std::string machine() {
   const std::string cgal = cgal_version();
-  return fmt::format("{} (family {}, model {}), {} MHz, {} cores, one used; {}; compiler {}; {}",
-                     processor("model name"), processor("cpu family"), processor("model"),
-                     processor("cpu MHz"), std::thread::hardware_concurrency(),
-                     vector_instructions(), __VERSION__,
-                     cgal.empty() ? "without CGAL" : "CGAL " + cgal);
+  return fmt::format(
+      "{} (family {}, model {}), {} MHz, {} cores, one used; {}, the floor with {}; "
+      "compiler {}; {}",
+      processor("model name"), processor("cpu family"), processor("model"), processor("cpu MHz"),
+      std::thread::hardware_concurrency(), instruction_sets().front(), vector_instructions(),
+      __VERSION__, cgal.empty() ? "without CGAL" : "CGAL " + cgal);
 }
 
 void add_options(CLI::App& app, Request& request, Outputs& outputs,
@@ -95,6 +116,11 @@ void add_options(CLI::App& app, Request& request, Outputs& outputs,
       ->type_name("TABLE,...")
       ->delimiter(',')
       ->check(CLI::IsMember(names));
+  app.add_option_function<std::string>(
+         "--instructions", use_instructions,
+         "use these: " + fmt::format("{}", fmt::join(instruction_sets(), ", ")))
+      ->type_name("SET")
+      ->check(CLI::IsMember(instruction_sets()));
   app.add_option("--curves", request.curves_directory, "the directory of .curves files")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory)
