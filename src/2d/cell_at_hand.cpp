@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/sketch.hpp"
 #include "common/tile_samples.hpp"
 
 namespace encase {
@@ -97,29 +98,21 @@ void CellAtHand::take(const OpenCell& cell) {
   }
   whole_.crossings = static_cast<int>(cell.crossings.size());
   crossings_.clear();
-  marks_.clear();
-  const int none = static_cast<int>(whole_.curves.size());
   for (const int id : cell.crossings) {
     const Crossing& crossing = partition_.crossings[id];
     // Curves that cross in the cell without crossing its boundary are present by their loops,
     // unless a splitting line has met the critical region: then they count for nothing.
     const std::array<int, 2> slots{slot_[crossing.curves[0]], slot_[crossing.curves[1]]};
     crossings_.push_back({crossing.box, slots});
-    Mark& mark = marks_.emplace_back(Mark{crossing.point, slots});
-    for (int& s : mark.slots)
-      if (s >= 0)
-        ++whole_.curves[s].crossings;
-      else
-        s = none;
+    for (const int s : slots)
+      if (s >= 0) ++whole_.curves[s].crossings;
   }
   find_points();
-  double square = 0;
-  for (const Place& v : cell.vertices) {
-    const double x = v.center[0] - cell.vertices[0].center[0],
-                 y = v.center[1] - cell.vertices[0].center[1];
-    square = std::max(square, x * x + y * y);
-  }
-  extent_ = std::sqrt(square);
+  mark();
+  bounds_ = bounds_of(cell);
+  extent_ = std::hypot(bounds_.width(0), bounds_.width(1));
+  if (sketches_.size() < whole_.curves.size()) sketches_.resize(whole_.curves.size());
+  for (SlotSketch& s : sketches_) s.made = false;
 }
 
 void CellAtHand::find_points() {
@@ -129,8 +122,30 @@ void CellAtHand::find_points() {
     const int c = partition_.line_crossings[id].curve;
     const Partition::Spot& spot = partition_.spot(id);
     points_.push_back({c, whole_.curves[slot_[c]].ends++, spot.at, spot.normal});
-    marks_.push_back({spot.at, {slot_[c], slot_[c]}});
   }
+}
+
+void CellAtHand::mark() {
+  const int groups = 1 + 2 * static_cast<int>(whole_.curves.size());
+  marks_.clear(groups);
+  for (const Place& vertex : cell_->vertices) marks_.add(vertex.center);
+  const int first_crossing = marks_.size();
+  for (const InnerCrossing& crossing : crossings_) marks_.add(crossing.place.center);
+  marks_.fill_row(cell_->vertices[0].center);
+  near_marks_ = marks_.size();
+  for (const BoundaryPoint& point : points_) marks_.add(point.at);
+  marks_.fill_row(cell_->vertices[0].center);
+  marks_.make_groups();
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    const int k = first_crossing + static_cast<int>(i);
+    marks_.join(0, k);
+    for (const int s : crossings_[i].slots)
+      if (s >= 0) marks_.join(1 + 2 * s, k);
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    marks_.join(2 + 2 * slot_[points_[i].curve], near_marks_ + static_cast<int>(i));
+  heights_.resize(near_marks_);
+  positive_.resize(groups);
 }
 
 /// The branches in a part, or at least so many while it is not known where the line crosses the
@@ -201,51 +216,46 @@ void CellAtHand::set_slivers(const Line& line, double clearance) {
   slivers_ = kSliver * std::max(0.0, -5 - rough_logarithm(std::max(1e-12, clearance / extent_)));
 }
 
-/// Where the line meets the boundary, about; false if it seems to miss the cell.
-bool CellAtHand::guess_chord(const Line& line, std::array<Point<2>, 2>* ends) {
+/// Where a line meets the boundary, about, given the heights of the vertices; false if it seems to
+/// miss the cell.
+bool CellAtHand::guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const {
   const auto& vertices = cell_->vertices;
-  const Point<2>* last = &vertices.back().center;
-  double last_height = height(line, *last);
   int count = 0;
-  for (const Place& vertex : vertices) {
-    const Point<2>& here = vertex.center;
-    const double h = height(line, here);
-    clearance_ = std::min(clearance_, std::fabs(h));
-    if ((h > 0) != (last_height > 0)) {
-      if (count == 2) return false;
-      const double w = last_height / (last_height - h);
-      (*ends)[count++] = {(*last)[0] + w * (here[0] - (*last)[0]),
-                          (*last)[1] + w * (here[1] - (*last)[1])};
-    }
-    last = &here;
-    last_height = h;
+  std::size_t last = vertices.size() - 1;
+  for (std::size_t k = 0; k < vertices.size(); last = k++) {
+    if ((heights[k] > 0) == (heights[last] > 0)) continue;
+    if (count == 2) return false;
+    const double w = heights[last] / (heights[last] - heights[k]);
+    const Point<2>&a = vertices[last].center, &b = vertices[k].center;
+    (*ends)[count++] = {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1])};
   }
   return count == 2;
 }
 
-/// Counts what seems to be on either side.
-void CellAtHand::guess_division(const Line& line) {
-  const std::size_t curves = whole_.curves.size(), crossings = crossings_.size();
-  Part &negative = parts_[0], &positive = parts_[1];
-  for (Part& part : parts_) part.curves = whole_.curves;
-  positive.curves.emplace_back();
-  for (Presence& p : positive.curves) p.ends = p.crossings = 0;
-  positive.crossings = 0;
-  for (std::size_t i = 0; i < crossings; ++i) {
-    const double h = height(line, marks_[i].at);
-    clearance_ = std::min(clearance_, std::fabs(h));
-    const int above = h > 0;
-    positive.crossings += above;
-    for (const int s : marks_[i].slots) positive.curves[s].crossings += above;
+/// Counts what seems to be on either side, given how many marks of each group are on the positive
+/// one.
+void CellAtHand::guess_division(const int* positive) {
+  for (Part& part : parts_) part.curves.resize(whole_.curves.size());
+  parts_[1].crossings = positive[0];
+  parts_[0].crossings = whole_.crossings - positive[0];
+  for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
+    const Presence& all = whole_.curves[s];
+    const int crossings = positive[1 + 2 * s], ends = positive[2 + 2 * s];
+    parts_[1].curves[s] = {all.curve, ends, crossings};
+    parts_[0].curves[s] = {all.curve, all.ends - ends, all.crossings - crossings};
   }
-  for (std::size_t i = crossings; i < marks_.size(); ++i)
-    positive.curves[marks_[i].slots[0]].ends += height(line, marks_[i].at) > 0;
-  positive.curves.pop_back();
-  negative.crossings = whole_.crossings - positive.crossings;
-  for (std::size_t s = 0; s < curves; ++s) {
-    negative.curves[s].ends -= positive.curves[s].ends;
-    negative.curves[s].crossings -= positive.curves[s].crossings;
+}
+
+/// The number of roots that the curve in a slot seems to have on a chord.
+int CellAtHand::guess_roots_of(std::size_t slot, const std::array<Point<2>, 2>& ends) {
+  SlotSketch& slot_sketch = sketches_[slot];
+  TiledPolynomial& f = partition_.tiles()[whole_.curves[slot].curve];
+  if (!slot_sketch.made) {
+    slot_sketch.made = true;
+    slot_sketch.serves = make_sketch(f, bounds_, &slot_sketch.sketch);
   }
+  return slot_sketch.serves ? count_sign_changes(slot_sketch.sketch, ends[0], ends[1])
+                            : count_sign_changes(f, ends[0], ends[1]);
 }
 
 /// Adds the roots that the curves seem to have on a chord, and returns the score; stops once that
@@ -253,9 +263,8 @@ void CellAtHand::guess_division(const Line& line) {
 double CellAtHand::guess_roots(const std::array<Point<2>, 2>& ends, double limit) {
   double reached = score();
   for (std::size_t s = 0; s < whole_.curves.size() && reached < limit; ++s) {
-    TiledPolynomial& f = partition_.tiles()[whole_.curves[s].curve];
     const int old = parts_[0].curves[s].ends;
-    int roots = count_sign_changes(f, ends[0], ends[1]);
+    int roots = guess_roots_of(s, ends);
     // A curve enters a cell as often as it leaves it.
     if ((roots + old) % 2 != 0) ++roots;
     if (roots == 0) continue;
@@ -271,11 +280,11 @@ bool CellAtHand::weigh(double limit, Proposal* proposal) {
   const Line& line = proposal->line;
   const double square = line.normal[0] * line.normal[0] + line.normal[1] * line.normal[1];
   if (!(square > 1e-200 && square < 1e200) || !std::isfinite(line.offset)) return false;
-  clearance_ = HUGE_VAL;
+  const double clearance = divide(marks_, line, near_marks_, heights_.data(), positive_.data());
   std::array<Point<2>, 2> ends;
-  if (!guess_chord(line, &ends)) return false;
-  guess_division(line);
-  set_slivers(line, clearance_);
+  if (!guess_chord(heights_.data(), &ends)) return false;
+  guess_division(positive_.data());
+  set_slivers(line, clearance);
   proposal->score = guess_roots(ends, limit);
   proposal->sampled = proposal->score < limit;
   return true;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "2d/partition.hpp"
+#include "common/sketch.hpp"
 
 namespace encase {
 
@@ -73,10 +74,6 @@ class CellAtHand {
     Place place;
     std::array<int, 2> slots;  // of its curves
   };
-  struct Mark {
-    Point<2> at;
-    std::array<int, 2> slots;  // of its curves; the one past the last for none
-  };
   struct Proposal {
     Line line;
     double score;  ///< at least so much, if the values used do not deceive
@@ -89,9 +86,11 @@ class CellAtHand {
   static int least_cells(const Part& part);
   void clear_parts();
   void find_points();
+  void mark();
   double score() const;
-  bool guess_chord(const Line& line, std::array<Point<2>, 2>* ends);
-  void guess_division(const Line& line);
+  bool guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const;
+  void guess_division(const int* positive);
+  int guess_roots_of(std::size_t slot, const std::array<Point<2>, 2>& ends);
   double guess_roots(const std::array<Point<2>, 2>& ends, double limit);
   bool weigh(double limit, Proposal* proposal);
   void set_slivers(const Line& line, double clearance);
@@ -109,9 +108,19 @@ class CellAtHand {
   std::array<Part, 2> parts_;
   std::vector<int> slot_;  // of every curve, among those present; -1 for others
   std::vector<InnerCrossing> crossings_;
-  std::vector<Mark> marks_;  // of the crossings, then of the points on the boundary
+  // The vertices, the crossings and the points on the boundary; groups: all crossings, and of each
+  // slot the crossings and the points.
+  PointGroups marks_;
+  int near_marks_ = 0;  // vertices and crossings
+  std::vector<double> heights_;
+  std::vector<int> positive_;  // marks of each group
+  struct SlotSketch {
+    Sketch sketch;
+    bool made = false, serves = false;
+  };
+  std::vector<SlotSketch> sketches_;  // of the slots
+  Box<2> bounds_;
   double extent_ = 0;
-  double clearance_ = 0;  // of the line that is weighed
   double slivers_ = 0;    // the penalty of the line that is tried
   std::vector<BoundaryPoint> points_;
   std::vector<char> sides_;  // of the vertices
