@@ -33,6 +33,9 @@ constexpr double kSliver = 0.045;  // for each halving of the distance to what i
 constexpr double kBalance = 0.05;
 constexpr double kTie = 1e-9;
 
+// How much larger than the cell the box of its sketches may be: on average, and one side of it.
+constexpr double kLarger = 2.5, kMostLarger = 64;
+
 /// About log2(x), for x > 0: exact at powers of two, linear between.
 double rough_logarithm(double x) {
   int exponent;
@@ -111,8 +114,33 @@ void CellAtHand::take(const OpenCell& cell) {
   mark();
   bounds_ = bounds_of(cell);
   extent_ = std::hypot(bounds_.width(0), bounds_.width(1));
-  if (sketches_.size() < whole_.curves.size()) sketches_.resize(whole_.curves.size());
-  for (SlotSketch& s : sketches_) s.made = false;
+  provide_sketches();
+}
+
+/// Takes over the sketches of an ancestor unless the cell has become much smaller. Cells are worked
+/// on depth first: what was made for an ancestor is still there.
+void CellAtHand::provide_sketches() {
+  const auto is_far_larger = [&](const Box<2>& box) {
+    const double x = box.width(0) / bounds_.width(0), y = box.width(1) / bounds_.width(1);
+    return std::max(x, y) > kMostLarger || x * y > kLarger * kLarger;
+  };
+  last_sketches_ = cell_->sketches;
+  if (last_sketches_ >= 0 && !is_far_larger(sketches_[last_sketches_].box)) return;
+  if (++last_sketches_ == static_cast<int>(sketches_.size())) {
+    sketches_.emplace_back().curves.resize(partition_.curves().size());
+  }
+  sketches_[last_sketches_].box = bounds_;
+  for (auto& of_curve : sketches_[last_sketches_].curves) of_curve.made = false;
+}
+
+const Sketch* CellAtHand::sketch(int curve) {
+  Sketches& sketches = sketches_[last_sketches_];
+  auto& of_curve = sketches.curves[curve];
+  if (!of_curve.made) {
+    of_curve.made = true;
+    of_curve.serves = make_sketch(partition_.tiles()[curve], sketches.box, &of_curve.sketch);
+  }
+  return of_curve.serves ? &of_curve.sketch : nullptr;
 }
 
 void CellAtHand::find_points() {
@@ -246,16 +274,11 @@ void CellAtHand::guess_division(const int* positive) {
   }
 }
 
-/// The number of roots that the curve in a slot seems to have on a chord.
-int CellAtHand::guess_roots_of(std::size_t slot, const std::array<Point<2>, 2>& ends) {
-  SlotSketch& slot_sketch = sketches_[slot];
-  TiledPolynomial& f = partition_.tiles()[whole_.curves[slot].curve];
-  if (!slot_sketch.made) {
-    slot_sketch.made = true;
-    slot_sketch.serves = make_sketch(f, bounds_, &slot_sketch.sketch);
-  }
-  return slot_sketch.serves ? count_sign_changes(slot_sketch.sketch, ends[0], ends[1])
-                            : count_sign_changes(f, ends[0], ends[1]);
+/// The number of roots that a curve seems to have on a chord.
+int CellAtHand::guess_roots_of(int curve, const std::array<Point<2>, 2>& ends) {
+  if (const Sketch* f = sketch(curve))
+    if (const auto count = count_sign_changes(*f, ends[0], ends[1])) return *count;
+  return count_sign_changes(partition_.tiles()[curve], ends[0], ends[1]);
 }
 
 /// Adds the roots that the curves seem to have on a chord, and returns the score; stops once that
@@ -264,7 +287,7 @@ double CellAtHand::guess_roots(const std::array<Point<2>, 2>& ends, double limit
   double reached = score();
   for (std::size_t s = 0; s < whole_.curves.size() && reached < limit; ++s) {
     const int old = parts_[0].curves[s].ends;
-    int roots = guess_roots_of(s, ends);
+    int roots = guess_roots_of(whole_.curves[s].curve, ends);
     // A curve enters a cell as often as it leaves it.
     if ((roots + old) % 2 != 0) ++roots;
     if (roots == 0) continue;

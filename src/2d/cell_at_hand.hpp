@@ -44,6 +44,11 @@ class CellAtHand {
   };
   const std::vector<BoundaryPoint>& points() const { return points_; }
 
+  /// The curve's polynomial about the cell, or null if it has no sketch.
+  const Sketch* sketch(int curve);
+  /// Where the sketches of the cell are, for its parts.
+  int sketches() const { return last_sketches_; }
+
   /// The cells to be expected of the whole cell.
   double expected_cells() const { return expected_cells(whole_); }
 
@@ -70,6 +75,15 @@ class CellAtHand {
     std::vector<Presence> curves;
     int crossings = 0;
   };
+  /// Sketches of the curves over a box, made when they are first asked for.
+  struct Sketches {
+    Box<2> box;
+    struct OfCurve {
+      Sketch sketch;
+      bool made = false, serves = false;
+    };
+    std::vector<OfCurve> curves;
+  };
   struct InnerCrossing {
     Place place;
     std::array<int, 2> slots;  // of its curves
@@ -90,7 +104,8 @@ class CellAtHand {
   double score() const;
   bool guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const;
   void guess_division(const int* positive);
-  int guess_roots_of(std::size_t slot, const std::array<Point<2>, 2>& ends);
+  void provide_sketches();
+  int guess_roots_of(int curve, const std::array<Point<2>, 2>& ends);
   double guess_roots(const std::array<Point<2>, 2>& ends, double limit);
   bool weigh(double limit, Proposal* proposal);
   void set_slivers(const Line& line, double clearance);
@@ -114,11 +129,8 @@ class CellAtHand {
   int near_marks_ = 0;  // vertices and crossings
   std::vector<double> heights_;
   std::vector<int> positive_;  // marks of each group
-  struct SlotSketch {
-    Sketch sketch;
-    bool made = false, serves = false;
-  };
-  std::vector<SlotSketch> sketches_;  // of the slots
+  std::vector<Sketches> sketches_;  // of the cell and those of its ancestors that are in use
+  int last_sketches_ = 0;           // those in use
   Box<2> bounds_;
   double extent_ = 0;
   double slivers_ = 0;    // the penalty of the line that is tried

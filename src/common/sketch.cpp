@@ -18,6 +18,7 @@ using FloatLanes = hn::CappedTag<float, 16>;
 using FloatVector = hn::Vec<FloatLanes>;
 constexpr int kFloatLanes = static_cast<int>(hn::MaxLanes(FloatLanes()));
 constexpr int kFloatParts = 16 / kFloatLanes;
+constexpr float kSmall = 0x1p-18f;  // above the rounding errors of values
 
 /// Sixteen floats.
 struct Floats {
@@ -58,8 +59,8 @@ HWY_INLINE std::uint32_t positive_lanes(D d, const V& v) {
   return bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
 }
 
-/// Bit k: the value at the point s + k ds, t + k dt is positive.
-std::uint32_t positive_along(const Sketch& f, float s, float ds, float t, float dt) {
+/// Bit k: the value at the point s + k ds, t + k dt is positive; bit 16 + k: it is not small.
+std::uint32_t signs_along(const Sketch& f, float s, float ds, float t, float dt) {
   HWY_ALIGN static constexpr float kNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                    8, 9, 10, 11, 12, 13, 14, 15};
   const Floats number = Floats::load(kNumbers);
@@ -74,8 +75,13 @@ std::uint32_t positive_along(const Sketch& f, float s, float ds, float t, float 
     sum = sum * at_t + inner;
   }
   std::uint32_t bits = 0;
-  for (int k = 0; k < kFloatParts; ++k)
-    bits |= positive_lanes(FloatLanes(), sum.part[k]) << (k * kFloatLanes);
+  const FloatVector small = hn::Set(FloatLanes(), kSmall);
+  for (int k = 0; k < kFloatParts; ++k) {
+    const FloatVector clear = hn::Sub(hn::Abs(sum.part[k]), small);
+    bits |= (positive_lanes(FloatLanes(), sum.part[k]) |
+             positive_lanes(FloatLanes(), clear) << 16)
+            << (k * kFloatLanes);
+  }
   return bits;
 }
 
@@ -202,11 +208,12 @@ HWY_AFTER_NAMESPACE();
 namespace encase {
 namespace {
 
-HWY_EXPORT(positive_along);
+HWY_EXPORT(signs_along);
 HWY_EXPORT(slopes_at);
 HWY_EXPORT(fill_sketch);
 HWY_EXPORT(divide_points);
 
+constexpr int kSmallValues = 1;  // among 16, that do not spoil the count
 constexpr double kFarthest = 4;  // from a tile's centre, for its halves, that it is used
 
 }  // namespace
@@ -227,7 +234,7 @@ bool make_sketch(TiledPolynomial& f, const Box<2>& box, Sketch* sketch) {
   return true;
 }
 
-int count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to) {
+std::optional<int> count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to) {
   constexpr int kSamples = Sketch::kLanes;
   float first[2], step[2];
   for (int i = 0; i < 2; ++i) {
@@ -236,7 +243,8 @@ int count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to
     step[i] = static_cast<float>(d * f.scale[i]);
   }
   const std::uint32_t positive =
-      HWY_DYNAMIC_DISPATCH(positive_along)(f, first[0], step[0], first[1], step[1]);
+      HWY_DYNAMIC_DISPATCH(signs_along)(f, first[0], step[0], first[1], step[1]);
+  if (std::popcount(positive >> kSamples) < kSamples - kSmallValues) return std::nullopt;
   return std::popcount((positive ^ (positive >> 1)) & ((1u << (kSamples - 1)) - 1));
 }
 

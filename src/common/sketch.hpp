@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/tile.hpp"
@@ -29,8 +30,9 @@ struct Sketch {
 bool make_sketch(TiledPolynomial& f, const Box<2>& box, Sketch* sketch);
 
 /// How often f changes sign between neighbours among 16 points spread over the inside of a segment:
-/// nearly always the number of its roots there, and never more but for errors.
-int count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to);
+/// nearly always the number of its roots there, and never more but for errors. Nothing where the
+/// values are too small for the sketch.
+std::optional<int> count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to);
 
 /// Values and gradients at 16 points, all in the box's coordinates.
 struct alignas(64) SketchSlopes {
