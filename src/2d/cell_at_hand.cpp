@@ -2,6 +2,7 @@
 #include "2d/cell_at_hand.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "common/sketch.hpp"
@@ -271,6 +272,33 @@ void CellAtHand::guess_division(const int* positive) {
     const int crossings = positive[1 + 2 * s], ends = positive[2 + 2 * s];
     parts_[1].curves[s] = {all.curve, ends, crossings};
     parts_[0].curves[s] = {all.curve, all.ends - ends, all.crossings - crossings};
+  }
+}
+
+void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& points,
+                                      std::array<ValueAndGradient, 16>* result) {
+  std::uint32_t left = 0xffff;
+  while (left != 0) {
+    const int curve = points[std::countr_zero(left)].curve;
+    const Sketch* f = sketch(curve);
+    SketchSlopes at_points;
+    if (f) {
+      alignas(64) Sketch::Lanes s, t;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        s[k] = static_cast<float>((points[k].at[0] - f->center[0]) * f->scale[0]);
+        t[k] = static_cast<float>((points[k].at[1] - f->center[1]) * f->scale[1]);
+      }
+      slopes(*f, s, t, &at_points);
+    }
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (points[k].curve != curve) continue;
+      left &= ~(1u << k);
+      if (f)
+        (*result)[k] = {at_points.value[k],
+                        {at_points.s[k] * f->scale[0], at_points.t[k] * f->scale[1]}};
+      else
+        (*result)[k] = value_and_gradient(partition_.tiles()[curve], points[k].at);
+    }
   }
 }
 

@@ -46,6 +46,11 @@ class CellAtHand {
 
   /// The curve's polynomial about the cell, or null if it has no sketch.
   const Sketch* sketch(int curve);
+  /// The values and gradients of points' curves, about.
+  void values_and_gradients(const std::array<BoundaryPoint, 16>& points,
+                            std::array<ValueAndGradient, 16>* result);
+  /// The smallest box around the cell, about.
+  const Box<2>& bounds() const { return bounds_; }
   /// Where the sketches of the cell are, for its parts.
   int sketches() const { return last_sketches_; }
 

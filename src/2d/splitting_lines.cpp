@@ -183,45 +183,51 @@ void SplittingLines::propose_between_curves() {
   }
 }
 
-/// Moves two points along their curves towards each other (thesis 6.1): tangential steps that
-/// minimise the distance to first order, then back towards the curve. Two steps do: what matters is
-/// a line that both branches leave on their own sides, not the closest pair.
-bool SplittingLines::approach(BoundaryPoint* a, BoundaryPoint* b) const {
-  const Box<2> bounds = bounds_of(cell_.cell());
-  const double reach = 0.25 * (bounds.width(0) + bounds.width(1));
-  const auto advance = [&](BoundaryPoint* p, double step) {
-    step = std::clamp(step, -reach, reach);
-    TiledPolynomial& f = partition_.tiles()[p->curve];
-    p->at[0] += -p->normal[1] * step;
-    p->at[1] += p->normal[0] * step;
-    for (int i = 0; i < kProjections; ++i) {
-      const auto [value, g] = value_and_gradient(f, p->at);
-      const double square = dot(g, g);
-      if (!(square > 0)) return false;
-      for (int k = 0; k < 2; ++k) {
-        p->at[k] -= std::clamp(value / square * g[k], -reach, reach);
-      }
-      p->normal = unit(g);
-    }
-    for (int k = 0; k < 2; ++k) p->at[k] = std::clamp(p->at[k], bounds.lo[k], bounds.hi[k]);
-    return std::isfinite(p->normal[0]) && std::isfinite(p->normal[1]);
-  };
-  for (int i = 0; i < kApproachSteps; ++i) {
-    const Point<2> d = minus(b->at, a->at);
-    const Point<2> s{-a->normal[1], a->normal[0]}, t{-b->normal[1], b->normal[0]};
-    // Minimise |d + v t - u s|^2.
-    const double c = dot(s, t), p = dot(d, s), q = dot(d, t), det = 1 - c * c;
-    double u, v;
-    if (det > 1e-4) {
-      u = (p - c * q) / det;
-      v = (c * p - q) / det;
-    } else {
-      u = 0.5 * p;
-      v = -0.5 * q;
-    }
-    if (!advance(a, u) || !advance(b, v)) return false;
+/// Moves the approached points towards their curves by a step of Newton's iteration.
+void SplittingLines::project(double reach) {
+  std::array<ValueAndGradient, 16> values;
+  cell_.values_and_gradients(approached_, &values);
+  for (std::size_t i = 0; i < approached_.size(); ++i) {
+    BoundaryPoint& p = approached_[i];
+    const auto& [value, g] = values[i];
+    const double square = dot(g, g), step = value / square;
+    for (int k = 0; k < 2; ++k) p.at[k] -= std::clamp(step * g[k], -reach, reach);
+    const double scale = 1 / std::sqrt(square);
+    p.normal = {g[0] * scale, g[1] * scale};
   }
-  return true;
+}
+
+/// Moves the points of pairs along their curves towards each other (thesis 6.1): tangential steps
+/// that minimise the distance to first order, then back towards the curve. Two steps do: what
+/// matters is a line that both branches leave on their own sides, not the closest pair.
+void SplittingLines::approach() {
+  const Box<2>& bounds = cell_.bounds();
+  const double reach = 0.25 * (bounds.width(0) + bounds.width(1));
+  for (int step = 0; step < kApproachSteps; ++step) {
+    for (int i = 0; i < kApproachedPairs; ++i) {
+      BoundaryPoint &a = approached_[i], &b = approached_[i + kApproachedPairs];
+      const Point<2> d = minus(b.at, a.at);
+      const Point<2> s{-a.normal[1], a.normal[0]}, t{-b.normal[1], b.normal[0]};
+      // Minimise |d + v t - u s|^2.
+      const double c = dot(s, t), p = dot(d, s), q = dot(d, t), det = 1 - c * c;
+      double u, v;
+      if (det > 1e-4) {
+        const double inverse = 1 / det;
+        u = (p - c * q) * inverse;
+        v = (c * p - q) * inverse;
+      } else {
+        u = 0.5 * p;
+        v = -0.5 * q;
+      }
+      u = std::clamp(u, -reach, reach);
+      v = std::clamp(v, -reach, reach);
+      a.at = {a.at[0] + u * s[0], a.at[1] + u * s[1]};
+      b.at = {b.at[0] + v * t[0], b.at[1] + v * t[1]};
+    }
+    for (int i = 0; i < kProjections; ++i) project(reach);
+    for (BoundaryPoint& p : approached_)
+      for (int k = 0; k < 2; ++k) p.at[k] = std::clamp(p.at[k], bounds.lo[k], bounds.hi[k]);
+  }
 }
 
 void SplittingLines::propose_closest_approach() {
@@ -233,9 +239,15 @@ void SplittingLines::propose_closest_approach() {
       if (points[i].curve != points[j].curve || (points[j].index - points[i].index) % 2 == 0)
         pairs_.push_back({i, j, square_distance(points[i].at, points[j].at)});
   keep_closest(kApproachedPairs);
-  for (const Pair& pair : pairs_) {
-    BoundaryPoint a = points[pair.a], b = points[pair.b];
-    if (approach(&a, &b)) cell_.propose(between(a, b));
+  if (pairs_.empty()) return;
+  for (std::size_t i = 0; i < kApproachedPairs; ++i) {
+    const Pair& pair = pairs_[std::min(i, pairs_.size() - 1)];
+    approached_[i] = points[pair.a];
+    approached_[i + kApproachedPairs] = points[pair.b];
+  }
+  approach();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    cell_.propose(between(approached_[i], approached_[i + kApproachedPairs]));
     if (is_good_enough()) return;
   }
 }

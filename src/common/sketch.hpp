@@ -38,6 +38,7 @@ std::optional<int> count_sign_changes(const Sketch& f, const Point<2>& from, con
 struct alignas(64) SketchSlopes {
   Sketch::Lanes value, s, t;
 };
+/// `s` and `t` aligned like the result.
 void slopes(const Sketch& f, const Sketch::Lanes& s, const Sketch::Lanes& t, SketchSlopes* result);
 
 /// Points of the plane in rows of eight, some of them in groups.
