@@ -126,11 +126,14 @@ void CellAtHand::provide_sketches() {
     return std::max(x, y) > kMostLarger || x * y > kLarger * kLarger;
   };
   last_sketches_ = cell_->sketches;
-  if (last_sketches_ >= 0 && !is_far_larger(sketches_[last_sketches_].box)) return;
+  if (last_sketches_ >= 0 && sketches_[last_sketches_].serve &&
+      !is_far_larger(sketches_[last_sketches_].box))
+    return;
   if (++last_sketches_ == static_cast<int>(sketches_.size())) {
     sketches_.emplace_back().curves.resize(partition_.curves().size());
   }
   sketches_[last_sketches_].box = bounds_;
+  sketches_[last_sketches_].serve = true;
   for (auto& of_curve : sketches_[last_sketches_].curves) of_curve.made = false;
 }
 
@@ -140,6 +143,7 @@ const Sketch* CellAtHand::sketch(int curve) {
   if (!of_curve.made) {
     of_curve.made = true;
     of_curve.serves = make_sketch(partition_.tiles()[curve], sketches.box, &of_curve.sketch);
+    sketches.serve = sketches.serve && of_curve.serves;
   }
   return of_curve.serves ? &of_curve.sketch : nullptr;
 }

@@ -88,6 +88,7 @@ class CellAtHand {
       bool made = false, serves = false;
     };
     std::vector<OfCurve> curves;
+    bool serve = true;  ///< all that have been asked for
   };
   struct InnerCrossing {
     Place place;

@@ -85,6 +85,7 @@ HWY_EXPORT(positive_at);
 HWY_EXPORT(jets_at);
 
 constexpr int kSamples = 16;
+constexpr double kReach = 3;  // a tile is good enough for a look a little beyond its rectangle
 
 }  // namespace
 
@@ -100,8 +101,8 @@ int count_sign_changes(TiledPolynomial& f, const Point<2>& from, const Point<2>&
       const double scale = 1 / tile.half[i];
       start[i] = (first[i] - tile.center[i]) * scale;
       stride[i] = step[i] * scale;
-      if (std::fabs(start[i] + (end - 1) * stride[i]) > Tile::kReach)
-        end = static_cast<int>((std::copysign(Tile::kReach, stride[i]) - start[i]) / stride[i]) + 1;
+      if (std::fabs(start[i] + (end - 1) * stride[i]) > kReach)
+        end = static_cast<int>((std::copysign(kReach, stride[i]) - start[i]) / stride[i]) + 1;
     }
     end = std::max(end, done + 1);
     const std::uint32_t here =
