@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "common/sketch.hpp"
 #include "common/tile_samples.hpp"
@@ -35,13 +36,12 @@ constexpr double kBalance = 0.05;
 constexpr double kTie = 1e-9;
 
 // How much larger than the cell the box of its sketches may be: on average, and one side of it.
-constexpr double kLarger = 2.5, kMostLarger = 64;
+constexpr double kLarger = 2, kMostLarger = 64;
 
-/// About log2(x), for x > 0: exact at powers of two, linear between.
+/// About log2(x), for normal x > 0: exact at powers of two, linear between.
 double rough_logarithm(double x) {
-  int exponent;
-  const double fraction = std::frexp(x, &exponent);
-  return exponent - 2 + 2 * fraction;
+  constexpr double kUnit = 0x1p-52;  // of the exponent
+  return static_cast<double>(std::bit_cast<std::int64_t>(x)) * kUnit - 1023;
 }
 
 /// What a number of crossings inside adds to the cells to be expected.
@@ -56,6 +56,7 @@ double uncrossed(int branches, int crossings) {
 
 /// What so many branches of a curve with so many crossings add.
 double cells_for_branches(int branches, int crossings) {
+  if (branches == 0) return 0;
   return kPerBranch * branches + kPerUncrossedBranch * uncrossed(branches, crossings);
 }
 
@@ -184,7 +185,7 @@ void CellAtHand::mark() {
 /// The branches in a part, or at least so many while it is not known where the line crosses the
 /// curve: one if the curve has crossings there.
 int CellAtHand::branches_of(const Presence& p) {
-  return p.crossings > 0 ? std::max(1, (p.ends + 1) / 2) : (p.ends + 1) / 2;
+  return std::max<int>(p.crossings > 0, (p.ends + 1) >> 1);
 }
 
 bool CellAtHand::is_simple(const Part& part) {
@@ -205,18 +206,17 @@ double CellAtHand::expected_cells(const Part& part) {
   double of_branches = 0;
   for (const Presence& p : part.curves) {
     const int count = branches_of(p);
-    if (count == 0) continue;
-    ++curves;
+    curves += count > 0;
     branches += count;
     of_branches += expectations.for_branches(count, p.crossings);
   }
+  if (part.crossings > 1) return expectations.for_crossings(part.crossings) + of_branches;
   if (part.crossings == 0) {
     if (branches == 0) return kEmpty;
     const double further = curves == 1 ? kFurtherBranchOfOneCurve : kFurtherBranchOfCurves;
     return kFinishedBranch + further * (branches - 1);
   }
-  if (part.crossings == 1 && branches == 2) return kFinishedCrossing;
-  return expectations.for_crossings(part.crossings) + of_branches;
+  return branches == 2 ? kFinishedCrossing : expectations.for_crossings(1) + of_branches;
 }
 
 int CellAtHand::least_cells(const Part& part) {
@@ -245,8 +245,9 @@ void CellAtHand::clear_parts() {
 
 void CellAtHand::set_slivers(const Line& line, double clearance) {
   const Point<2>& normal = line.normal;
-  clearance /= std::sqrt(normal[0] * normal[0] + normal[1] * normal[1]);
-  slivers_ = kSliver * std::max(0.0, -5 - rough_logarithm(std::max(1e-12, clearance / extent_)));
+  const double square = normal[0] * normal[0] + normal[1] * normal[1];
+  const double part = clearance * clearance / (square * extent_ * extent_);
+  slivers_ = kSliver * std::max(0.0, -5 - 0.5 * rough_logarithm(std::max(0x1p-80, part)));
 }
 
 /// Where a line meets the boundary, about, given the heights of the vertices; false if it seems to

@@ -18,7 +18,7 @@ using FloatLanes = hn::CappedTag<float, 16>;
 using FloatVector = hn::Vec<FloatLanes>;
 constexpr int kFloatLanes = static_cast<int>(hn::MaxLanes(FloatLanes()));
 constexpr int kFloatParts = 16 / kFloatLanes;
-constexpr float kSmall = 0x1p-18f;  // above the rounding errors of values
+constexpr float kSmall = 0x1p-19f;  // above the rounding errors of values
 
 /// Sixteen floats.
 struct Floats {
@@ -214,7 +214,7 @@ HWY_EXPORT(fill_sketch);
 HWY_EXPORT(divide_points);
 
 constexpr int kSmallValues = 1;  // among 16, that do not spoil the count
-constexpr double kFarthest = 4;  // from a tile's centre, for its halves, that it is used
+constexpr double kFarthest = 2.5;  // from a tile's centre, for its halves, that it is used
 
 }  // namespace
 

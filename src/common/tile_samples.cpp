@@ -85,7 +85,7 @@ HWY_EXPORT(positive_at);
 HWY_EXPORT(jets_at);
 
 constexpr int kSamples = 16;
-constexpr double kReach = 3;  // a tile is good enough for a look a little beyond its rectangle
+constexpr double kReach = 2;  // a tile is good enough for a look a little beyond its rectangle
 
 }  // namespace
 
