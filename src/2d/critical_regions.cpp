@@ -45,7 +45,7 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve,
   result.root_box = f.box();
   // Small regions are cut by fewer lines but reached by more rays, and some saddles drop out on the
   // way; a region is not split below this width once f has a sign on it.
-  const double fine = result.root_box.largest_width() * 0x1p-4;
+  const double fine = result.root_box.largest_width() * 0x1p-3;
   // Boxes well below the usual size are few, unless branches stay close together for a long way:
   // then more is tried now and then.
   const double small = result.root_box.largest_width() * 0x1p-10;
