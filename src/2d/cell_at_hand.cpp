@@ -290,8 +290,8 @@ void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& point
     if (f) {
       alignas(64) Sketch::Lanes s, t;
       for (std::size_t k = 0; k < points.size(); ++k) {
-        s[k] = static_cast<float>((points[k].at[0] - f->center[0]) * f->scale[0]);
-        t[k] = static_cast<float>((points[k].at[1] - f->center[1]) * f->scale[1]);
+        s[k] = (points[k].at[0] - f->center[0]) * f->scale[0];
+        t[k] = (points[k].at[1] - f->center[1]) * f->scale[1];
       }
       slopes(*f, s, t, &at_points);
     }
@@ -309,8 +309,7 @@ void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& point
 
 /// The number of roots that a curve seems to have on a chord.
 int CellAtHand::guess_roots_of(int curve, const std::array<Point<2>, 2>& ends) {
-  if (const Sketch* f = sketch(curve))
-    if (const auto count = count_sign_changes(*f, ends[0], ends[1])) return *count;
+  if (const Sketch* f = sketch(curve)) return count_sign_changes(*f, ends[0], ends[1]);
   return count_sign_changes(partition_.tiles()[curve], ends[0], ends[1]);
 }
 

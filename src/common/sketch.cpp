@@ -14,95 +14,64 @@
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
-using FloatLanes = hn::CappedTag<float, 16>;
-using FloatVector = hn::Vec<FloatLanes>;
-constexpr int kFloatLanes = static_cast<int>(hn::MaxLanes(FloatLanes()));
-constexpr int kFloatParts = 16 / kFloatLanes;
-constexpr float kSmall = 0x1p-19f;  // above the rounding errors of values
-
-/// Sixteen floats.
-struct Floats {
-  FloatVector part[kFloatParts];
-
-  static HWY_INLINE Floats load(const float* from) {
-    Floats r;
-    for (int k = 0; k < kFloatParts; ++k)
-      r.part[k] = hn::Load(FloatLanes(), from + k * kFloatLanes);
-    return r;
-  }
-  static HWY_INLINE Floats all(float x) {
-    Floats r;
-    for (int k = 0; k < kFloatParts; ++k) r.part[k] = hn::Set(FloatLanes(), x);
-    return r;
-  }
-  HWY_INLINE void store(float* to) const {
-    for (int k = 0; k < kFloatParts; ++k)
-      hn::Store(part[k], FloatLanes(), to + k * kFloatLanes);
-  }
-};
-HWY_INLINE Floats operator+(const Floats& a, const Floats& b) {
-  Floats r;
-  for (int k = 0; k < kFloatParts; ++k) r.part[k] = hn::Add(a.part[k], b.part[k]);
-  return r;
-}
-HWY_INLINE Floats operator*(const Floats& a, const Floats& b) {
-  Floats r;
-  for (int k = 0; k < kFloatParts; ++k) r.part[k] = hn::Mul(a.part[k], b.part[k]);
-  return r;
-}
-
 /// Bit k: lane k is positive.
-template <class D, class V>
-HWY_INLINE std::uint32_t positive_lanes(D d, const V& v) {
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, hn::Gt(v, hn::Zero(d)), bits);
-  return bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
+HWY_INLINE std::uint32_t positive_lanes(const Row& row) {
+  std::uint32_t result = 0;
+  for (int k = 0; k < kParts; ++k) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(Lanes(), hn::Gt(row.part[k], hn::Zero(Lanes())), bits);
+    result |= static_cast<std::uint32_t>(bits[0]) << (k * kLanes);
+  }
+  return result;
 }
 
-/// Bit k: the value at the point s + k ds, t + k dt is positive; bit 16 + k: it is not small.
-std::uint32_t signs_along(const Sketch& f, float s, float ds, float t, float dt) {
-  HWY_ALIGN static constexpr float kNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                   8, 9, 10, 11, 12, 13, 14, 15};
-  const Floats number = Floats::load(kNumbers);
-  const Floats at_s = Floats::all(s) + number * Floats::all(ds);
-  const Floats at_t = Floats::all(t) + number * Floats::all(dt);
+/// Bit k: the value at the point s + k ds, t + k dt is positive.
+std::uint32_t positive_along(const Sketch& f, double s, double ds, double t, double dt) {
+  HWY_ALIGN static constexpr double kNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                    8, 9, 10, 11, 12, 13, 14, 15};
+  const Row low = Row::load(kNumbers), high = Row::load(kNumbers + 8);
+  const Row s0 = Row::all(s) + low * Row::all(ds), s1 = Row::all(s) + high * Row::all(ds);
+  const Row t0 = Row::all(t) + low * Row::all(dt), t1 = Row::all(t) + high * Row::all(dt);
   const int n = f.degree;
-  Floats sum = Floats::all(f.a[n][0]);
+  Row sum0 = Row::all(f.a[n][0]), sum1 = sum0;
   for (int j = n - 1; j >= 0; --j) {
-    const float* row = f.a[j].data();
-    Floats inner = Floats::all(row[n - j]);
-    for (int i = n - j - 1; i >= 0; --i) inner = inner * at_s + Floats::all(row[i]);
-    sum = sum * at_t + inner;
+    const double* row = f.a[j].data();
+    Row inner0 = Row::all(row[n - j]), inner1 = inner0;
+    for (int i = n - j - 1; i >= 0; --i) {
+      const Row a = Row::all(row[i]);
+      inner0 = inner0 * s0 + a;
+      inner1 = inner1 * s1 + a;
+    }
+    sum0 = sum0 * t0 + inner0;
+    sum1 = sum1 * t1 + inner1;
   }
-  std::uint32_t bits = 0;
-  const FloatVector small = hn::Set(FloatLanes(), kSmall);
-  for (int k = 0; k < kFloatParts; ++k) {
-    const FloatVector clear = hn::Sub(hn::Abs(sum.part[k]), small);
-    bits |= (positive_lanes(FloatLanes(), sum.part[k]) |
-             positive_lanes(FloatLanes(), clear) << 16)
-            << (k * kFloatLanes);
-  }
-  return bits;
+  return positive_lanes(sum0) | positive_lanes(sum1) << 8;
 }
 
-void slopes_at(const Sketch& f, const float* s, const float* t, SketchSlopes* result) {
-  const Floats at_s = Floats::load(s), at_t = Floats::load(t), zero = Floats::all(0);
+HWY_INLINE void slopes_of_row(const Sketch& f, const double* s, const double* t, double* values,
+                              double* slopes_s, double* slopes_t) {
+  const Row at_s = Row::load(s), at_t = Row::load(t), zero = Row::all(0);
   const int n = f.degree;
-  Floats value = zero, along_s = zero, along_t = zero;
+  Row value = zero, along_s = zero, along_t = zero;
   for (int j = n; j >= 0; --j) {
-    const float* row = f.a[j].data();
-    Floats inner = Floats::all(row[n - j]), slope = zero;
+    const double* row = f.a[j].data();
+    Row inner = Row::all(row[n - j]), slope = zero;
     for (int i = n - j - 1; i >= 0; --i) {
       slope = slope * at_s + inner;
-      inner = inner * at_s + Floats::all(row[i]);
+      inner = inner * at_s + Row::all(row[i]);
     }
     along_t = along_t * at_t + value;
     value = value * at_t + inner;
     along_s = along_s * at_t + slope;
   }
-  value.store(result->value.data());
-  along_s.store(result->s.data());
-  along_t.store(result->t.data());
+  value.store(values);
+  along_s.store(slopes_s);
+  along_t.store(slopes_t);
+}
+
+void slopes_at(const Sketch& f, const double* s, const double* t, SketchSlopes* result) {
+  for (int k = 0; k < Sketch::kLanes; k += 8)
+    slopes_of_row(f, s + k, t + k, &result->value[k], &result->s[k], &result->t[k]);
 }
 
 /// Rows of 16 coefficients, in powers of one variable, for each power of the other.
@@ -167,13 +136,8 @@ void fill_sketch(const Tile& tile, const double* origin, const double* half, Ske
   while (degree > 0 && rest <= kNeglected * total) rest += sizes[--degree];
   sketch->degree = degree;
   const Row scale = Row::all(total > 0 ? 1 / total : 1);
-  const hn::Rebind<float, Lanes> narrow;
   for (int j = 0; j <= degree; ++j)
-    for (int i = 0; i <= degree - j; i += 8) {
-      const Row row = Row::load(&a[j][i]) * scale;
-      for (int k = 0; k < kParts; ++k)
-        hn::Store(hn::DemoteTo(narrow, row.part[k]), narrow, &sketch->a[j][i + k * kLanes]);
-    }
+    for (int i = 0; i <= degree - j; i += 8) (Row::load(&a[j][i]) * scale).store(&sketch->a[j][i]);
 }
 
 void divide_points(const PointGroups& points, const double* line, int near, double* heights,
@@ -192,9 +156,7 @@ void divide_points(const PointGroups& points, const double* line, int near, doub
         lowest = encase::HWY_NAMESPACE::least(lowest, absolute(height));
         height.store_unaligned(heights + k);
       }
-      for (int part = 0; part < kParts; ++part)
-        above |= static_cast<PointGroups::Bits>(positive_lanes(Lanes(), height.part[part]))
-                 << (k - word + part * kLanes);
+      above |= static_cast<PointGroups::Bits>(positive_lanes(height)) << (k - word);
     }
     for (int g = 0; g < points.groups; ++g) positive[g] += std::popcount(above & *member++);
   }
@@ -208,12 +170,11 @@ HWY_AFTER_NAMESPACE();
 namespace encase {
 namespace {
 
-HWY_EXPORT(signs_along);
+HWY_EXPORT(positive_along);
 HWY_EXPORT(slopes_at);
 HWY_EXPORT(fill_sketch);
 HWY_EXPORT(divide_points);
 
-constexpr int kSmallValues = 1;  // among 16, that do not spoil the count
 constexpr double kFarthest = 2.5;  // from a tile's centre, for its halves, that it is used
 
 }  // namespace
@@ -234,17 +195,16 @@ bool make_sketch(TiledPolynomial& f, const Box<2>& box, Sketch* sketch) {
   return true;
 }
 
-std::optional<int> count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to) {
+int count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to) {
   constexpr int kSamples = Sketch::kLanes;
-  float first[2], step[2];
+  Point<2> first, step;
   for (int i = 0; i < 2; ++i) {
     const double d = (to[i] - from[i]) * (1.0 / kSamples);
-    first[i] = static_cast<float>((from[i] - f.center[i] + 0.5 * d) * f.scale[i]);
-    step[i] = static_cast<float>(d * f.scale[i]);
+    first[i] = (from[i] - f.center[i] + 0.5 * d) * f.scale[i];
+    step[i] = d * f.scale[i];
   }
   const std::uint32_t positive =
-      HWY_DYNAMIC_DISPATCH(signs_along)(f, first[0], step[0], first[1], step[1]);
-  if (std::popcount(positive >> kSamples) < kSamples - kSmallValues) return std::nullopt;
+      HWY_DYNAMIC_DISPATCH(positive_along)(f, first[0], step[0], first[1], step[1]);
   return std::popcount((positive ^ (positive >> 1)) & ((1u << (kSamples - 1)) - 1));
 }
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "common/tile.hpp"
@@ -13,11 +12,11 @@
 /// instruction sets give the same bits.
 namespace encase {
 
-/// A polynomial in and near a box, about: in single precision, and of the lowest degree that
-/// does. Multiplied by a positive constant.
+/// A polynomial in and near a box, about, of the lowest degree that does. Multiplied by a positive
+/// constant.
 struct Sketch {
   static constexpr int kLanes = 16;
-  using Lanes = std::array<float, kLanes>;
+  using Lanes = std::array<double, kLanes>;
 
   Point<2> center{};
   Point<2> scale{};  ///< (point - center) * scale lies in [-1, 1] in either coordinate
@@ -30,15 +29,14 @@ struct Sketch {
 bool make_sketch(TiledPolynomial& f, const Box<2>& box, Sketch* sketch);
 
 /// How often f changes sign between neighbours among 16 points spread over the inside of a segment:
-/// nearly always the number of its roots there, and never more but for errors. Nothing where the
-/// values are too small for the sketch.
-std::optional<int> count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to);
+/// nearly always the number of its roots there, and never more but for errors.
+int count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to);
 
 /// Values and gradients at 16 points, all in the box's coordinates.
 struct alignas(64) SketchSlopes {
   Sketch::Lanes value, s, t;
 };
-/// `s` and `t` aligned like the result.
+/// `s` and `t` are aligned like the result.
 void slopes(const Sketch& f, const Sketch::Lanes& s, const Sketch::Lanes& t, SketchSlopes* result);
 
 /// Points of the plane in rows of eight, some of them in groups.
