@@ -219,11 +219,6 @@ void PointGroups::clear(int group_count) {
   groups = group_count;
 }
 
-void PointGroups::add(const Point<2>& point) {
-  x.push_back(point[0]);
-  y.push_back(point[1]);
-}
-
 void PointGroups::fill_row(const Point<2>& point) {
   while (size() % 8 != 0) add(point);
 }

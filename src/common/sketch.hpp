@@ -50,7 +50,10 @@ struct PointGroups {
 
   void clear(int group_count);
   int size() const { return static_cast<int>(x.size()); }
-  void add(const Point<2>& point);
+  void add(const Point<2>& point) {
+    x.push_back(point[0]);
+    y.push_back(point[1]);
+  }
   /// Adds a point until the last row is whole.
   void fill_row(const Point<2>& point);
   /// Room for the groups of as many points as there are; the groups are empty.
