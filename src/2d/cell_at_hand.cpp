@@ -36,7 +36,7 @@ constexpr double kBalance = 0.05;
 constexpr double kTie = 1e-9;
 
 // How much larger than the cell the box of its sketches may be: on average, and one side of it.
-constexpr double kLarger = 2, kMostLarger = 64;
+constexpr double kLarger = 2.5, kMostLarger = 64;
 
 /// About log2(x), for normal x > 0: exact at powers of two, linear between.
 double rough_logarithm(double x) {

@@ -350,7 +350,6 @@ bool SplittingLines::find_best() {
   propose_between_crossings();
   if (!is_good_enough()) propose_between_branches();
   if (!is_good_enough()) propose_between_curves();
-  cell_.prove_best();
   if (!seems_to_save(fast_ ? kPoorWhenFast : kPoor)) propose_closest_approach();
   if (!fast_ && stall > 0 && stall <= kFanLevels && !seems_to_save(kPoorWhenStalled))
     propose_fans();
