@@ -113,9 +113,17 @@ void CellAtHand::take(const OpenCell& cell) {
       if (s >= 0) ++whole_.curves[s].crossings;
   }
   find_points();
+  expected_cells_ = expected_cells(whole_);
+  is_prepared_ = false;
+}
+
+/// What is needed to weigh lines, once for every cell that is cut.
+void CellAtHand::prepare() {
+  if (is_prepared_) return;
+  is_prepared_ = true;
   mark();
-  bounds_ = bounds_of(cell);
-  extent_ = std::hypot(bounds_.width(0), bounds_.width(1));
+  bounds_ = bounds_of(*cell_);
+  extent_ = std::sqrt(bounds_.width(0) * bounds_.width(0) + bounds_.width(1) * bounds_.width(1));
   provide_sketches();
 }
 
@@ -347,6 +355,7 @@ bool CellAtHand::weigh(double limit, Proposal* proposal) {
 
 void CellAtHand::propose(const Line& line) {
   ++partition_.lines_tried;
+  prepare();
   Proposal proposal{line, 0, false};
   if (!weigh(best_score_ - kTie, &proposal)) return;
   proposals_.push_back(proposal);

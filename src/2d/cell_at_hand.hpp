@@ -50,12 +50,15 @@ class CellAtHand {
   void values_and_gradients(const std::array<BoundaryPoint, 16>& points,
                             std::array<ValueAndGradient, 16>* result);
   /// The smallest box around the cell, about.
-  const Box<2>& bounds() const { return bounds_; }
+  const Box<2>& bounds() {
+    prepare();
+    return bounds_;
+  }
   /// Where the sketches of the cell are, for its parts.
   int sketches() const { return last_sketches_; }
 
   /// The cells to be expected of the whole cell.
-  double expected_cells() const { return expected_cells(whole_); }
+  double expected_cells() const { return expected_cells_; }
 
   /// Notes a line that seems to cut the cell. How many roots the curves have on it is only guessed,
   /// from some values of their polynomials.
@@ -106,6 +109,7 @@ class CellAtHand {
   static int least_cells(const Part& part);
   void clear_parts();
   void find_points();
+  void prepare();
   void mark();
   double score() const;
   bool guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const;
@@ -134,12 +138,14 @@ class CellAtHand {
   PointGroups marks_;
   int near_marks_ = 0;  // vertices and crossings
   std::vector<double> heights_;
-  std::vector<int> positive_;  // marks of each group
+  std::vector<int> positive_;       // marks of each group
   std::vector<Sketches> sketches_;  // of the cell and those of its ancestors that are in use
   int last_sketches_ = 0;           // those in use
   Box<2> bounds_;
   double extent_ = 0;
-  double slivers_ = 0;    // the penalty of the line that is tried
+  double expected_cells_ = 0;
+  bool is_prepared_ = false;
+  double slivers_ = 0;  // the penalty of the line that is tried
   std::vector<BoundaryPoint> points_;
   std::vector<char> sides_;  // of the vertices
   std::vector<Proposal> proposals_;

@@ -66,7 +66,10 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve,
     }
     // Across the axis along which f changes more, weighted by the width.
     const int axis = change[0] * node.box.width(0) >= change[1] * node.box.width(1) ? 0 : 1;
-    if (node.box.width(axis) <= fine && node.patch[0].sign()) { result.other_points.push_back(node.box); return kRegion; }
+    if (node.box.width(axis) <= fine && node.patch[0].sign()) {
+      result.other_points.push_back(node.box);
+      return kRegion;
+    }
     return cover::kSplitX - axis;
   };
   PlaneSubdivision<1> subdivision({&f}, result.root_box, half_planes, limits, kernel);

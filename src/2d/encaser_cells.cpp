@@ -83,6 +83,7 @@ void Encaser::split_cells() {
   SplittingLines lines(at_hand, options_.fast);
   std::vector<OpenCell> stack;
   stack.push_back(std::move(first_cell_));
+  finished_.reserve(2 * partition.crossings.size() + 16);
   const double features = static_cast<double>(partition.crossings.size() + 1);
   for (std::int64_t count = 0; !stack.empty(); ++count) {
     OpenCell cell = std::move(stack.back());

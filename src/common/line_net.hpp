@@ -27,8 +27,9 @@ struct alignas(64) LineNet {
 
 /// The polynomial of a tile on the segment origin + direction s, |s| <= 1, in the tile's
 /// coordinates, from its values at the nodes of the tables. Its coefficients each err by at most
-/// interpolation_roundings(degree) u values_norm sum |a_ij| S^i T^j, if |s| <= S and |t| <= T on the
-/// segment, up to the tile's reach. Here and below `degree` is that of the tables, at least the tile's.
+/// interpolation_roundings(degree) u values_norm sum |a_ij| S^i T^j, if |s| <= S and |t| <= T on
+/// the segment, up to the tile's reach. Here and below `degree` is that of the tables, at least the
+/// tile's.
 void interpolate(const Tile& tile, const Point<2>& origin, const Point<2>& direction,
                  const BernsteinTables& tables, double threshold, LineNet* net);
 

@@ -243,8 +243,8 @@ class PathSearch {
       reach[i] = (std::fabs(piece->origin[i]) + std::fabs(piece->direction[i])) * kUp;
     const double sum = largest_value(tile, reach);
     // The nodes' images are rounded: twice, each to at most the reach.
-    const double at_nodes = roundings(interpolation_roundings(piece->degree()) + 3 * tile.degree) *
-                            sum;
+    const double at_nodes =
+        roundings(interpolation_roundings(piece->degree()) + 3 * tile.degree) * sum;
     whole.rounding = piece->tables->values_norm * at_nodes * kUp + kUnderflow;
     interpolate(tile, piece->origin, piece->direction, *piece->tables,
                 (whole.rounding + piece->error) * kUp, &whole.net);

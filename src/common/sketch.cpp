@@ -208,8 +208,7 @@ int count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to
   return std::popcount((positive ^ (positive >> 1)) & ((1u << (kSamples - 1)) - 1));
 }
 
-void slopes(const Sketch& f, const Sketch::Lanes& s, const Sketch::Lanes& t,
-            SketchSlopes* result) {
+void slopes(const Sketch& f, const Sketch::Lanes& s, const Sketch::Lanes& t, SketchSlopes* result) {
   HWY_DYNAMIC_DISPATCH(slopes_at)(f, s.data(), t.data(), result);
 }
 

@@ -65,6 +65,7 @@ struct PointGroups {
 
 /// On which side of a line, about, points lie: the heights of the first `near` ones (whole rows),
 /// the least absolute value of those, and how many of each group are on the positive side.
-double divide(const PointGroups& points, const Line& line, int near, double* heights, int* positive);
+double divide(const PointGroups& points, const Line& line, int near, double* heights,
+              int* positive);
 
 }  // namespace encase
