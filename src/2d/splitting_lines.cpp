@@ -197,6 +197,77 @@ void SplittingLines::project(double reach) {
   }
 }
 
+/// Of two branches, from points 0 to 1 and from 2 to 3, some points are found on the way; proposes
+/// the line with the widest gap between those of either branch, if there is one that separates
+/// them.
+void SplittingLines::separate(const std::array<int, 4>& ends) {
+  constexpr int kOnBranch = 8, kDirections = 16, kFiner = 4;
+  const auto& points = cell_.points();
+  const Box<2>& bounds = cell_.bounds();
+  const Point<2> center = bounds.center();
+  for (int branch = 0; branch < 2; ++branch) {
+    const BoundaryPoint &a = points[ends[2 * branch]], &b = points[ends[2 * branch + 1]];
+    // The tangents in the direction from a to b; at a it leads into the cell, at b out of it.
+    Point<2> s{-a.normal[1], a.normal[0]}, t{-b.normal[1], b.normal[0]};
+    const double length = std::sqrt(square_distance(a.at, b.at)),
+                 inwards = dot(s, minus(center, a.at)) - dot(t, minus(center, b.at)),
+                 scale = inwards < 0 ? -length : length;
+    for (int i = 0; i < kOnBranch; ++i) {
+      const double w = (i + 0.5) / kOnBranch, v = 1 - w;
+      BoundaryPoint& p = approached_[branch * kOnBranch + i];
+      p = a;
+      for (int k = 0; k < 2; ++k)
+        p.at[k] = v * v * (1 + 2 * w) * a.at[k] + w * w * (1 + 2 * v) * b.at[k] +
+                  scale * v * w * (v * s[k] - w * t[k]);
+    }
+  }
+  const double reach = 0.25 * (bounds.width(0) + bounds.width(1));
+  for (int i = 0; i < kProjections; ++i) project(reach);
+  double widest = 0, middle = 0, best_angle = 0;
+  Point<2> normal;
+  const auto try_direction = [&](double angle) {
+    const Point<2> d{std::cos(angle), std::sin(angle)};
+    std::array<double, 2> least, most;
+    for (int branch = 0; branch < 2; ++branch) {
+      const double from = dot(d, points[ends[2 * branch]].at),
+                   to = dot(d, points[ends[2 * branch + 1]].at);
+      least[branch] = std::min(from, to);
+      most[branch] = std::max(from, to);
+      for (int i = 0; i < kOnBranch; ++i) {
+        const double h = dot(d, approached_[branch * kOnBranch + i].at);
+        least[branch] = std::min(least[branch], h);
+        most[branch] = std::max(most[branch], h);
+      }
+    }
+    for (int above = 0; above < 2; ++above) {
+      const double gap = least[above] - most[1 - above];
+      if (!(gap > widest)) continue;
+      widest = gap;
+      middle = most[1 - above] + 0.5 * gap;
+      normal = d;
+      best_angle = angle;
+    }
+  };
+  double step = std::numbers::pi / kDirections;
+  for (int i = 0; i < kDirections; ++i) try_direction((i + 0.37) * step);
+  for (int i = 0; i < kFiner && widest > 0; ++i) {
+    step *= 0.5;
+    for (const double angle : {best_angle - step, best_angle + step}) try_direction(angle);
+  }
+  if (widest > 0) cell_.propose(line_through({middle * normal[0], middle * normal[1]}, normal));
+}
+
+/// Long branches that bend beside each other.
+void SplittingLines::propose_between_two_branches() {
+  const auto& points = cell_.points();
+  if (points.size() != 4 || !cell_.cell().crossings.empty()) return;
+  // Neighbours on the boundary are the ends of a branch.
+  if (points[0].curve == points[1].curve && points[2].curve == points[3].curve)
+    separate({0, 1, 2, 3});
+  if (points[1].curve == points[2].curve && points[3].curve == points[0].curve)
+    separate({1, 2, 3, 0});
+}
+
 /// Moves the points of pairs along their curves towards each other (thesis 6.1): tangential steps
 /// that minimise the distance to first order, then back towards the curve. Two steps do: what
 /// matters is a line that both branches leave on their own sides, not the closest pair.
@@ -350,6 +421,7 @@ bool SplittingLines::find_best() {
   propose_between_crossings();
   if (!is_good_enough()) propose_between_branches();
   if (!is_good_enough()) propose_between_curves();
+  if (!is_good_enough()) propose_between_two_branches();
   if (!seems_to_save(fast_ ? kPoorWhenFast : kPoor)) propose_closest_approach();
   if (!fast_ && stall > 0 && stall <= kFanLevels && !seems_to_save(kPoorWhenStalled))
     propose_fans();

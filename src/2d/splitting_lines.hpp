@@ -37,6 +37,8 @@ class SplittingLines {
   void propose_through_saddles(int curve);
   void propose_between_branches();
   void propose_between_curves();
+  void separate(const std::array<int, 4>& ends);
+  void propose_between_two_branches();
   void approach();
   void project(double reach);
   void propose_closest_approach();
