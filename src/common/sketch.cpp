@@ -114,7 +114,7 @@ HWY_INLINE void transpose_rows(Rows& a, int n) {
 }
 
 void fill_sketch(const Tile& tile, const double* origin, const double* half, Sketch* sketch) {
-  constexpr double kNeglected = 0x1p-9;  // of the sum of all coefficients
+  constexpr double kNeglected = 0x1p-12;  // of the sum of all coefficients
   const int n = tile.degree;
   alignas(64) Rows a;
   const int size = n < 8 ? 8 : Tile::kRow;
