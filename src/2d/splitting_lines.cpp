@@ -55,6 +55,17 @@ Line between(const CellAtHand::BoundaryPoint& a, const CellAtHand::BoundaryPoint
   return line_through(halfway(a.at, b.at), normal);
 }
 
+/// Unit vectors in directions spread over half a turn, none of them along an axis.
+template <int N>
+std::array<Point<2>, N> half_turn() {
+  std::array<Point<2>, N> directions;
+  for (int k = 0; k < N; ++k) {
+    const double angle = (k + 0.37) * std::numbers::pi / N;
+    directions[k] = {std::cos(angle), std::sin(angle)};
+  }
+  return directions;
+}
+
 }  // namespace
 
 Line line_through(const Point<2>& point, const Point<2>& normal) {
@@ -201,7 +212,8 @@ void SplittingLines::project(double reach) {
 /// the line with the widest gap between those of either branch, if there is one that separates
 /// them.
 void SplittingLines::separate(const std::array<int, 4>& ends) {
-  constexpr int kOnBranch = 8, kDirections = 16, kFiner = 4;
+  constexpr int kOnBranch = 8, kCoarse = 16, kDirections = 256;
+  static const auto directions = half_turn<kDirections>();
   const auto& points = cell_.points();
   const Box<2>& bounds = cell_.bounds();
   const Point<2> center = bounds.center();
@@ -223,10 +235,10 @@ void SplittingLines::separate(const std::array<int, 4>& ends) {
   }
   const double reach = 0.25 * (bounds.width(0) + bounds.width(1));
   for (int i = 0; i < kProjections; ++i) project(reach);
-  double widest = 0, middle = 0, best_angle = 0;
-  Point<2> normal;
-  const auto try_direction = [&](double angle) {
-    const Point<2> d{std::cos(angle), std::sin(angle)};
+  double widest = 0, middle = 0;
+  int best = 0;
+  const auto try_direction = [&](int index) {
+    const Point<2>& d = directions[index % kDirections];
     std::array<double, 2> least, most;
     for (int branch = 0; branch < 2; ++branch) {
       const double from = dot(d, points[ends[2 * branch]].at),
@@ -244,17 +256,19 @@ void SplittingLines::separate(const std::array<int, 4>& ends) {
       if (!(gap > widest)) continue;
       widest = gap;
       middle = most[1 - above] + 0.5 * gap;
-      normal = d;
-      best_angle = angle;
+      best = index;
     }
   };
-  double step = std::numbers::pi / kDirections;
-  for (int i = 0; i < kDirections; ++i) try_direction((i + 0.37) * step);
-  for (int i = 0; i < kFiner && widest > 0; ++i) {
-    step *= 0.5;
-    for (const double angle : {best_angle - step, best_angle + step}) try_direction(angle);
+  int step = kDirections / kCoarse;
+  for (int i = 0; i < kCoarse; ++i) try_direction(i * step);
+  if (!(widest > 0)) return;
+  while ((step /= 2) > 0) {
+    const int around = best;
+    try_direction(around + step);
+    try_direction(around + kDirections - step);
   }
-  if (widest > 0) cell_.propose(line_through({middle * normal[0], middle * normal[1]}, normal));
+  const Point<2>& normal = directions[best % kDirections];
+  cell_.propose(line_through({middle * normal[0], middle * normal[1]}, normal));
 }
 
 /// Long branches that bend beside each other.
@@ -380,14 +394,7 @@ void SplittingLines::propose_refinement() {
 /// often separates two long branches that bend beside each other, where no line derived from them
 /// does.
 void SplittingLines::propose_fans() {
-  static const auto normals = [] {
-    std::array<Point<2>, kFanLines> directions;
-    for (int k = 0; k < kFanLines; ++k) {
-      const double angle = (k + 0.37) * std::numbers::pi / kFanLines;
-      directions[k] = {std::cos(angle), std::sin(angle)};
-    }
-    return directions;
-  }();
+  static const auto normals = half_turn<kFanLines>();
   const auto& points = cell_.points();
   const int n = static_cast<int>(points.size());
   pairs_.clear();
