@@ -23,7 +23,7 @@ constexpr double kPoor = 0.5;  // a cut that does not save so many calls for clo
 constexpr double kPoorWhenFast = -1;
 constexpr double kPoorWhenStalled = 0;  // and in the first levels without progress for fans
 constexpr int kFanLevels = 2;
-constexpr int kFanPairs = 8;  // of boundary points
+constexpr int kFanPairs = 4;  // of boundary points
 constexpr int kFanLines = 12;
 
 double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
