@@ -2,8 +2,11 @@
 #include "2d/cell_at_hand.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
+#include "common/sketch.hpp"
 #include "common/tile_samples.hpp"
 
 namespace encase {
@@ -32,11 +35,13 @@ constexpr double kSliver = 0.045;  // for each halving of the distance to what i
 constexpr double kBalance = 0.05;
 constexpr double kTie = 1e-9;
 
-/// About log2(x), for x > 0: exact at powers of two, linear between.
+// How much larger than the cell the box of its sketches may be: on average, and one side of it.
+constexpr double kLarger = 2.5, kMostLarger = 64;
+
+/// About log2(x), for normal x > 0: exact at powers of two, linear between.
 double rough_logarithm(double x) {
-  int exponent;
-  const double fraction = std::frexp(x, &exponent);
-  return exponent - 2 + 2 * fraction;
+  constexpr double kUnit = 0x1p-52;  // of the exponent
+  return static_cast<double>(std::bit_cast<std::int64_t>(x)) * kUnit - 1023;
 }
 
 /// What a number of crossings inside adds to the cells to be expected.
@@ -51,6 +56,7 @@ double uncrossed(int branches, int crossings) {
 
 /// What so many branches of a curve with so many crossings add.
 double cells_for_branches(int branches, int crossings) {
+  if (branches == 0) return 0;
   return kPerBranch * branches + kPerUncrossedBranch * uncrossed(branches, crossings);
 }
 
@@ -97,29 +103,58 @@ void CellAtHand::take(const OpenCell& cell) {
   }
   whole_.crossings = static_cast<int>(cell.crossings.size());
   crossings_.clear();
-  marks_.clear();
-  const int none = static_cast<int>(whole_.curves.size());
   for (const int id : cell.crossings) {
     const Crossing& crossing = partition_.crossings[id];
     // Curves that cross in the cell without crossing its boundary are present by their loops,
     // unless a splitting line has met the critical region: then they count for nothing.
     const std::array<int, 2> slots{slot_[crossing.curves[0]], slot_[crossing.curves[1]]};
     crossings_.push_back({crossing.box, slots});
-    Mark& mark = marks_.emplace_back(Mark{crossing.point, slots});
-    for (int& s : mark.slots)
-      if (s >= 0)
-        ++whole_.curves[s].crossings;
-      else
-        s = none;
+    for (const int s : slots)
+      if (s >= 0) ++whole_.curves[s].crossings;
   }
   find_points();
-  double square = 0;
-  for (const Place& v : cell.vertices) {
-    const double x = v.center[0] - cell.vertices[0].center[0],
-                 y = v.center[1] - cell.vertices[0].center[1];
-    square = std::max(square, x * x + y * y);
+  expected_cells_ = expected_cells(whole_);
+  is_prepared_ = false;
+}
+
+/// What is needed to weigh lines, once for every cell that is cut.
+void CellAtHand::prepare() {
+  if (is_prepared_) return;
+  is_prepared_ = true;
+  mark();
+  bounds_ = bounds_of(*cell_);
+  extent_ = std::sqrt(bounds_.width(0) * bounds_.width(0) + bounds_.width(1) * bounds_.width(1));
+  provide_sketches();
+}
+
+/// Takes over the sketches of an ancestor unless the cell has become much smaller. Cells are worked
+/// on depth first: what was made for an ancestor is still there.
+void CellAtHand::provide_sketches() {
+  const auto is_far_larger = [&](const Box<2>& box) {
+    const double x = box.width(0) / bounds_.width(0), y = box.width(1) / bounds_.width(1);
+    return std::max(x, y) > kMostLarger || x * y > kLarger * kLarger;
+  };
+  last_sketches_ = cell_->sketches;
+  if (last_sketches_ >= 0 && sketches_[last_sketches_].serve &&
+      !is_far_larger(sketches_[last_sketches_].box))
+    return;
+  if (++last_sketches_ == static_cast<int>(sketches_.size())) {
+    sketches_.emplace_back().curves.resize(partition_.curves().size());
   }
-  extent_ = std::sqrt(square);
+  sketches_[last_sketches_].box = bounds_;
+  sketches_[last_sketches_].serve = true;
+  for (auto& of_curve : sketches_[last_sketches_].curves) of_curve.made = false;
+}
+
+const Sketch* CellAtHand::sketch(int curve) {
+  Sketches& sketches = sketches_[last_sketches_];
+  auto& of_curve = sketches.curves[curve];
+  if (!of_curve.made) {
+    of_curve.made = true;
+    of_curve.serves = make_sketch(partition_.tiles()[curve], sketches.box, &of_curve.sketch);
+    sketches.serve = sketches.serve && of_curve.serves;
+  }
+  return of_curve.serves ? &of_curve.sketch : nullptr;
 }
 
 void CellAtHand::find_points() {
@@ -129,14 +164,36 @@ void CellAtHand::find_points() {
     const int c = partition_.line_crossings[id].curve;
     const Partition::Spot& spot = partition_.spot(id);
     points_.push_back({c, whole_.curves[slot_[c]].ends++, spot.at, spot.normal});
-    marks_.push_back({spot.at, {slot_[c], slot_[c]}});
   }
+}
+
+void CellAtHand::mark() {
+  const int groups = 1 + 2 * static_cast<int>(whole_.curves.size());
+  marks_.clear(groups);
+  for (const Place& vertex : cell_->vertices) marks_.add(vertex.center);
+  const int first_crossing = marks_.size();
+  for (const InnerCrossing& crossing : crossings_) marks_.add(crossing.place.center);
+  marks_.fill_row(cell_->vertices[0].center);
+  near_marks_ = marks_.size();
+  for (const BoundaryPoint& point : points_) marks_.add(point.at);
+  marks_.fill_row(cell_->vertices[0].center);
+  marks_.make_groups();
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    const int k = first_crossing + static_cast<int>(i);
+    marks_.join(0, k);
+    for (const int s : crossings_[i].slots)
+      if (s >= 0) marks_.join(1 + 2 * s, k);
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    marks_.join(2 + 2 * slot_[points_[i].curve], near_marks_ + static_cast<int>(i));
+  heights_.resize(near_marks_);
+  positive_.resize(groups);
 }
 
 /// The branches in a part, or at least so many while it is not known where the line crosses the
 /// curve: one if the curve has crossings there.
 int CellAtHand::branches_of(const Presence& p) {
-  return p.crossings > 0 ? std::max(1, (p.ends + 1) / 2) : (p.ends + 1) / 2;
+  return std::max<int>(p.crossings > 0, (p.ends + 1) >> 1);
 }
 
 bool CellAtHand::is_simple(const Part& part) {
@@ -157,18 +214,17 @@ double CellAtHand::expected_cells(const Part& part) {
   double of_branches = 0;
   for (const Presence& p : part.curves) {
     const int count = branches_of(p);
-    if (count == 0) continue;
-    ++curves;
+    curves += count > 0;
     branches += count;
     of_branches += expectations.for_branches(count, p.crossings);
   }
+  if (part.crossings > 1) return expectations.for_crossings(part.crossings) + of_branches;
   if (part.crossings == 0) {
     if (branches == 0) return kEmpty;
     const double further = curves == 1 ? kFurtherBranchOfOneCurve : kFurtherBranchOfCurves;
     return kFinishedBranch + further * (branches - 1);
   }
-  if (part.crossings == 1 && branches == 2) return kFinishedCrossing;
-  return expectations.for_crossings(part.crossings) + of_branches;
+  return branches == 2 ? kFinishedCrossing : expectations.for_crossings(1) + of_branches;
 }
 
 int CellAtHand::least_cells(const Part& part) {
@@ -197,55 +253,72 @@ void CellAtHand::clear_parts() {
 
 void CellAtHand::set_slivers(const Line& line, double clearance) {
   const Point<2>& normal = line.normal;
-  clearance /= std::sqrt(normal[0] * normal[0] + normal[1] * normal[1]);
-  slivers_ = kSliver * std::max(0.0, -5 - rough_logarithm(std::max(1e-12, clearance / extent_)));
+  const double square = normal[0] * normal[0] + normal[1] * normal[1];
+  const double part = clearance * clearance / (square * extent_ * extent_);
+  slivers_ = kSliver * std::max(0.0, -5 - 0.5 * rough_logarithm(std::max(0x1p-80, part)));
 }
 
-/// Where the line meets the boundary, about; false if it seems to miss the cell.
-bool CellAtHand::guess_chord(const Line& line, std::array<Point<2>, 2>* ends) {
+/// Where a line meets the boundary, about, given the heights of the vertices; false if it seems to
+/// miss the cell.
+bool CellAtHand::guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const {
   const auto& vertices = cell_->vertices;
-  const Point<2>* last = &vertices.back().center;
-  double last_height = height(line, *last);
   int count = 0;
-  for (const Place& vertex : vertices) {
-    const Point<2>& here = vertex.center;
-    const double h = height(line, here);
-    clearance_ = std::min(clearance_, std::fabs(h));
-    if ((h > 0) != (last_height > 0)) {
-      if (count == 2) return false;
-      const double w = last_height / (last_height - h);
-      (*ends)[count++] = {(*last)[0] + w * (here[0] - (*last)[0]),
-                          (*last)[1] + w * (here[1] - (*last)[1])};
-    }
-    last = &here;
-    last_height = h;
+  std::size_t last = vertices.size() - 1;
+  for (std::size_t k = 0; k < vertices.size(); last = k++) {
+    if ((heights[k] > 0) == (heights[last] > 0)) continue;
+    if (count == 2) return false;
+    const double w = heights[last] / (heights[last] - heights[k]);
+    const Point<2>&a = vertices[last].center, &b = vertices[k].center;
+    (*ends)[count++] = {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1])};
   }
   return count == 2;
 }
 
-/// Counts what seems to be on either side.
-void CellAtHand::guess_division(const Line& line) {
-  const std::size_t curves = whole_.curves.size(), crossings = crossings_.size();
-  Part &negative = parts_[0], &positive = parts_[1];
-  for (Part& part : parts_) part.curves = whole_.curves;
-  positive.curves.emplace_back();
-  for (Presence& p : positive.curves) p.ends = p.crossings = 0;
-  positive.crossings = 0;
-  for (std::size_t i = 0; i < crossings; ++i) {
-    const double h = height(line, marks_[i].at);
-    clearance_ = std::min(clearance_, std::fabs(h));
-    const int above = h > 0;
-    positive.crossings += above;
-    for (const int s : marks_[i].slots) positive.curves[s].crossings += above;
+/// Counts what seems to be on either side, given how many marks of each group are on the positive
+/// one.
+void CellAtHand::guess_division(const int* positive) {
+  for (Part& part : parts_) part.curves.resize(whole_.curves.size());
+  parts_[1].crossings = positive[0];
+  parts_[0].crossings = whole_.crossings - positive[0];
+  for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
+    const Presence& all = whole_.curves[s];
+    const int crossings = positive[1 + 2 * s], ends = positive[2 + 2 * s];
+    parts_[1].curves[s] = {all.curve, ends, crossings};
+    parts_[0].curves[s] = {all.curve, all.ends - ends, all.crossings - crossings};
   }
-  for (std::size_t i = crossings; i < marks_.size(); ++i)
-    positive.curves[marks_[i].slots[0]].ends += height(line, marks_[i].at) > 0;
-  positive.curves.pop_back();
-  negative.crossings = whole_.crossings - positive.crossings;
-  for (std::size_t s = 0; s < curves; ++s) {
-    negative.curves[s].ends -= positive.curves[s].ends;
-    negative.curves[s].crossings -= positive.curves[s].crossings;
+}
+
+void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& points,
+                                      std::array<ValueAndGradient, 16>* result) {
+  std::uint32_t left = 0xffff;
+  while (left != 0) {
+    const int curve = points[std::countr_zero(left)].curve;
+    const Sketch* f = sketch(curve);
+    SketchSlopes at_points;
+    if (f) {
+      alignas(64) Sketch::Lanes s, t;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        s[k] = (points[k].at[0] - f->center[0]) * f->scale[0];
+        t[k] = (points[k].at[1] - f->center[1]) * f->scale[1];
+      }
+      slopes(*f, s, t, &at_points);
+    }
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (points[k].curve != curve) continue;
+      left &= ~(1u << k);
+      if (f)
+        (*result)[k] = {at_points.value[k],
+                        {at_points.s[k] * f->scale[0], at_points.t[k] * f->scale[1]}};
+      else
+        (*result)[k] = value_and_gradient(partition_.tiles()[curve], points[k].at);
+    }
   }
+}
+
+/// The number of roots that a curve seems to have on a chord.
+int CellAtHand::guess_roots_of(int curve, const std::array<Point<2>, 2>& ends) {
+  if (const Sketch* f = sketch(curve)) return count_sign_changes(*f, ends[0], ends[1]);
+  return count_sign_changes(partition_.tiles()[curve], ends[0], ends[1]);
 }
 
 /// Adds the roots that the curves seem to have on a chord, and returns the score; stops once that
@@ -253,9 +326,8 @@ void CellAtHand::guess_division(const Line& line) {
 double CellAtHand::guess_roots(const std::array<Point<2>, 2>& ends, double limit) {
   double reached = score();
   for (std::size_t s = 0; s < whole_.curves.size() && reached < limit; ++s) {
-    TiledPolynomial& f = partition_.tiles()[whole_.curves[s].curve];
     const int old = parts_[0].curves[s].ends;
-    int roots = count_sign_changes(f, ends[0], ends[1]);
+    int roots = guess_roots_of(whole_.curves[s].curve, ends);
     // A curve enters a cell as often as it leaves it.
     if ((roots + old) % 2 != 0) ++roots;
     if (roots == 0) continue;
@@ -271,11 +343,11 @@ bool CellAtHand::weigh(double limit, Proposal* proposal) {
   const Line& line = proposal->line;
   const double square = line.normal[0] * line.normal[0] + line.normal[1] * line.normal[1];
   if (!(square > 1e-200 && square < 1e200) || !std::isfinite(line.offset)) return false;
-  clearance_ = HUGE_VAL;
+  const double clearance = divide(marks_, line, near_marks_, heights_.data(), positive_.data());
   std::array<Point<2>, 2> ends;
-  if (!guess_chord(line, &ends)) return false;
-  guess_division(line);
-  set_slivers(line, clearance_);
+  if (!guess_chord(heights_.data(), &ends)) return false;
+  guess_division(positive_.data());
+  set_slivers(line, clearance);
   proposal->score = guess_roots(ends, limit);
   proposal->sampled = proposal->score < limit;
   return true;
@@ -283,6 +355,7 @@ bool CellAtHand::weigh(double limit, Proposal* proposal) {
 
 void CellAtHand::propose(const Line& line) {
   ++partition_.lines_tried;
+  prepare();
   Proposal proposal{line, 0, false};
   if (!weigh(best_score_ - kTie, &proposal)) return;
   proposals_.push_back(proposal);

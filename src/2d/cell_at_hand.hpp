@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "2d/partition.hpp"
+#include "common/sketch.hpp"
 
 namespace encase {
 
@@ -43,8 +44,21 @@ class CellAtHand {
   };
   const std::vector<BoundaryPoint>& points() const { return points_; }
 
+  /// The curve's polynomial about the cell, or null if it has no sketch.
+  const Sketch* sketch(int curve);
+  /// The values and gradients of points' curves, about.
+  void values_and_gradients(const std::array<BoundaryPoint, 16>& points,
+                            std::array<ValueAndGradient, 16>* result);
+  /// The smallest box around the cell, about.
+  const Box<2>& bounds() {
+    prepare();
+    return bounds_;
+  }
+  /// Where the sketches of the cell are, for its parts.
+  int sketches() const { return last_sketches_; }
+
   /// The cells to be expected of the whole cell.
-  double expected_cells() const { return expected_cells(whole_); }
+  double expected_cells() const { return expected_cells_; }
 
   /// Notes a line that seems to cut the cell. How many roots the curves have on it is only guessed,
   /// from some values of their polynomials.
@@ -69,13 +83,19 @@ class CellAtHand {
     std::vector<Presence> curves;
     int crossings = 0;
   };
+  /// Sketches of the curves over a box, made when they are first asked for.
+  struct Sketches {
+    Box<2> box;
+    struct OfCurve {
+      Sketch sketch;
+      bool made = false, serves = false;
+    };
+    std::vector<OfCurve> curves;
+    bool serve = true;  ///< all that have been asked for
+  };
   struct InnerCrossing {
     Place place;
     std::array<int, 2> slots;  // of its curves
-  };
-  struct Mark {
-    Point<2> at;
-    std::array<int, 2> slots;  // of its curves; the one past the last for none
   };
   struct Proposal {
     Line line;
@@ -89,9 +109,13 @@ class CellAtHand {
   static int least_cells(const Part& part);
   void clear_parts();
   void find_points();
+  void prepare();
+  void mark();
   double score() const;
-  bool guess_chord(const Line& line, std::array<Point<2>, 2>* ends);
-  void guess_division(const Line& line);
+  bool guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const;
+  void guess_division(const int* positive);
+  void provide_sketches();
+  int guess_roots_of(int curve, const std::array<Point<2>, 2>& ends);
   double guess_roots(const std::array<Point<2>, 2>& ends, double limit);
   bool weigh(double limit, Proposal* proposal);
   void set_slivers(const Line& line, double clearance);
@@ -109,10 +133,19 @@ class CellAtHand {
   std::array<Part, 2> parts_;
   std::vector<int> slot_;  // of every curve, among those present; -1 for others
   std::vector<InnerCrossing> crossings_;
-  std::vector<Mark> marks_;  // of the crossings, then of the points on the boundary
+  // The vertices, the crossings and the points on the boundary; groups: all crossings, and of each
+  // slot the crossings and the points.
+  PointGroups marks_;
+  int near_marks_ = 0;  // vertices and crossings
+  std::vector<double> heights_;
+  std::vector<int> positive_;       // marks of each group
+  std::vector<Sketches> sketches_;  // of the cell and those of its ancestors that are in use
+  int last_sketches_ = 0;           // those in use
+  Box<2> bounds_;
   double extent_ = 0;
-  double clearance_ = 0;  // of the line that is weighed
-  double slivers_ = 0;    // the penalty of the line that is tried
+  double expected_cells_ = 0;
+  bool is_prepared_ = false;
+  double slivers_ = 0;  // the penalty of the line that is tried
   std::vector<BoundaryPoint> points_;
   std::vector<char> sides_;  // of the vertices
   std::vector<Proposal> proposals_;

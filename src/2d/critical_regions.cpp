@@ -45,7 +45,7 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve,
   result.root_box = f.box();
   // Small regions are cut by fewer lines but reached by more rays, and some saddles drop out on the
   // way; a region is not split below this width once f has a sign on it.
-  const double fine = result.root_box.largest_width() * 0x1p-4;
+  const double fine = result.root_box.largest_width() * 0x1p-3;
   // Boxes well below the usual size are few, unless branches stay close together for a long way:
   // then more is tried now and then.
   const double small = result.root_box.largest_width() * 0x1p-10;
@@ -54,14 +54,22 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve,
   constexpr int kRegion = 0;
   const auto visit = [&](const PlaneSubdivision<1>::Node& node) {
     const CriticalVerdict verdict = test_critical(node.patch[0]);
-    if (verdict.excluded) return cover::kExcluded;
-    if (node.box.largest_width() <= small && ++small_boxes > kFew && node.level % 4 == 0 &&
-        no_relevant_critical_point(f.polynomial(), node.box, kernel))
+    const auto& change = verdict.variation;  // zero if the gradient does not vanish
+    if (verdict.excluded) {
+      if (change[0] > 0 || change[1] > 0) result.other_points.push_back(node.box);
       return cover::kExcluded;
+    }
+    if (node.box.largest_width() <= small && ++small_boxes > kFew && node.level % 4 == 0 &&
+        no_relevant_critical_point(f.polynomial(), node.box, kernel)) {
+      result.other_points.push_back(node.box);
+      return cover::kExcluded;
+    }
     // Across the axis along which f changes more, weighted by the width.
-    const auto& change = verdict.variation;
     const int axis = change[0] * node.box.width(0) >= change[1] * node.box.width(1) ? 0 : 1;
-    if (node.box.width(axis) <= fine && node.patch[0].sign()) return kRegion;
+    if (node.box.width(axis) <= fine && node.patch[0].sign()) {
+      result.other_points.push_back(node.box);
+      return kRegion;
+    }
     return cover::kSplitX - axis;
   };
   PlaneSubdivision<1> subdivision({&f}, result.root_box, half_planes, limits, kernel);

@@ -17,6 +17,8 @@ struct CriticalRegions {
   std::vector<int> tokens;
   /// Leaves in which neither the curve nor its critical points could be excluded.
   std::vector<Box<2>> unresolved;
+  /// Leaves in which a critical point of another kind was not excluded: saddles are in these.
+  std::vector<Box<2>> other_points;
   int boxes = 0;
 };
 

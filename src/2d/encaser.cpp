@@ -7,6 +7,7 @@
 #include "2d/critical_regions.hpp"
 #include "2d/encaser.hpp"
 #include "2d/locate.hpp"
+#include "2d/saddles.hpp"
 #include "common/components.hpp"
 #include "common/isolate_roots.hpp"
 #include "common/perturb.hpp"
@@ -314,9 +315,12 @@ void Encaser::find_critical_regions() {
       if (token >= 0) token += first;
     for (CriticalRegion& region : found.regions)
       partition_->critical_regions.push_back(std::move(region));
+    append_saddles(tiled_[c], c, found.other_points, &partition_->saddles);
     report(found.unresolved, found.root_box, Unresolved::Kind::SingularPoint, {c});
     result_.critical_covers.push_back({c, found.root_box, std::move(found.tokens)});
   }
+  std::stable_sort(partition_->saddles.begin(), partition_->saddles.end(),
+                   [](const Saddle& a, const Saddle& b) { return a.reach < b.reach; });
 }
 
 void Encaser::collect_zones() {

@@ -37,7 +37,6 @@ class Encaser {
   static Shape shape_of(const CellAtHand& at_hand);
   bool find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* settled);
   bool find_cut_at_zone(const OpenCell& cell, SplittingLines& lines, CellState* settled);
-  void find_saddles();
   bool out_of_budget();
   /// Tells the caller's progress callback; a refusal uses the budget up.
   void progress(const char* stage, double done);

@@ -4,7 +4,6 @@
 
 #include "2d/encaser.hpp"
 #include "2d/loop_certificates.hpp"
-#include "2d/saddles.hpp"
 #include "2d/splitting_lines.hpp"
 #include "common/segments.hpp"
 
@@ -77,22 +76,14 @@ bool Encaser::find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* se
   return false;
 }
 
-void Encaser::find_saddles() {
-  for (const CriticalCover& cover : result_.critical_covers)
-    append_saddles(partition_->tiles()[cover.curve], cover.curve,
-                   leaves(cover.root, cover.tokens, cover::kExcluded), &partition_->saddles);
-  std::stable_sort(partition_->saddles.begin(), partition_->saddles.end(),
-                   [](const Saddle& a, const Saddle& b) { return a.reach < b.reach; });
-}
-
 void Encaser::split_cells() {
   Partition& partition = *partition_;
-  find_saddles();
   partition.fill(&first_cell_);
   CellAtHand at_hand(partition);
   SplittingLines lines(at_hand, options_.fast);
   std::vector<OpenCell> stack;
   stack.push_back(std::move(first_cell_));
+  finished_.reserve(2 * partition.crossings.size() + 16);
   const double features = static_cast<double>(partition.crossings.size() + 1);
   for (std::int64_t count = 0; !stack.empty(); ++count) {
     OpenCell cell = std::move(stack.back());
@@ -118,6 +109,7 @@ void Encaser::split_cells() {
       }
       if (found) {
         ++result_.statistics.splits;
+        negative.sketches = positive.sketches = at_hand.sketches();
         stack.push_back(std::move(positive));
         stack.push_back(std::move(negative));
         continue;

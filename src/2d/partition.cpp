@@ -204,7 +204,7 @@ void Partition::build_child(const OpenCell& cell, const Cut& cut, int first_root
   child->word.reserve(cell.word.size() + count);
   child->vertices.push_back(positive ? cut.vertex_out : cut.vertex_in);
   const auto take_edge = [&](int k, int from, int to) {
-    for (int i = from; i < to; ++i) child->word.push_back(cell.word[i]);
+    child->word.insert(child->word.end(), cell.word.begin() + from, cell.word.begin() + to);
     child->edges.push_back(
         {cell.edges[k].line, cell.edges[k].positive, static_cast<int>(child->word.size())});
   };

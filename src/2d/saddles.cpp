@@ -52,7 +52,7 @@ Step advance(const Jet& jet, Search* search) {
   const Point<2> step{(jet.gradient[0] * jet.yy - jet.gradient[1] * jet.xy) / determinant,
                       (jet.gradient[1] * jet.xx - jet.gradient[0] * jet.xy) / determinant};
   search->at = {search->at[0] - step[0], search->at[1] - step[1]};
-  if (!near(search->at, search->start, 0.75 * search->size)) return Step::Lost;
+  if (!near(search->at, search->start, 1.5 * search->size)) return Step::Lost;
   return near(step, {0, 0}, 0.1 * search->size) ? Step::Near : Step::Far;
 }
 

@@ -23,7 +23,7 @@ constexpr double kPoor = 0.5;  // a cut that does not save so many calls for clo
 constexpr double kPoorWhenFast = -1;
 constexpr double kPoorWhenStalled = 0;  // and in the first levels without progress for fans
 constexpr int kFanLevels = 2;
-constexpr int kFanPairs = 8;  // of boundary points
+constexpr int kFanPairs = 4;  // of boundary points
 constexpr int kFanLines = 12;
 
 double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
@@ -53,6 +53,17 @@ Line between(const CellAtHand::BoundaryPoint& a, const CellAtHand::BoundaryPoint
   }
   if (dot(normal, normal) < 1e-12) normal = direction;
   return line_through(halfway(a.at, b.at), normal);
+}
+
+/// Unit vectors in directions spread over half a turn, none of them along an axis.
+template <int N>
+std::array<Point<2>, N> half_turn() {
+  std::array<Point<2>, N> directions;
+  for (int k = 0; k < N; ++k) {
+    const double angle = (k + 0.37) * std::numbers::pi / N;
+    directions[k] = {std::cos(angle), std::sin(angle)};
+  }
+  return directions;
 }
 
 }  // namespace
@@ -183,45 +194,125 @@ void SplittingLines::propose_between_curves() {
   }
 }
 
-/// Moves two points along their curves towards each other (thesis 6.1): tangential steps that
-/// minimise the distance to first order, then back towards the curve. Two steps do: what matters is
-/// a line that both branches leave on their own sides, not the closest pair.
-bool SplittingLines::approach(BoundaryPoint* a, BoundaryPoint* b) const {
-  const Box<2> bounds = bounds_of(cell_.cell());
-  const double reach = 0.25 * (bounds.width(0) + bounds.width(1));
-  const auto advance = [&](BoundaryPoint* p, double step) {
-    step = std::clamp(step, -reach, reach);
-    TiledPolynomial& f = partition_.tiles()[p->curve];
-    p->at[0] += -p->normal[1] * step;
-    p->at[1] += p->normal[0] * step;
-    for (int i = 0; i < kProjections; ++i) {
-      const auto [value, g] = value_and_gradient(f, p->at);
-      const double square = dot(g, g);
-      if (!(square > 0)) return false;
-      for (int k = 0; k < 2; ++k) {
-        p->at[k] -= std::clamp(value / square * g[k], -reach, reach);
-      }
-      p->normal = unit(g);
-    }
-    for (int k = 0; k < 2; ++k) p->at[k] = std::clamp(p->at[k], bounds.lo[k], bounds.hi[k]);
-    return std::isfinite(p->normal[0]) && std::isfinite(p->normal[1]);
-  };
-  for (int i = 0; i < kApproachSteps; ++i) {
-    const Point<2> d = minus(b->at, a->at);
-    const Point<2> s{-a->normal[1], a->normal[0]}, t{-b->normal[1], b->normal[0]};
-    // Minimise |d + v t - u s|^2.
-    const double c = dot(s, t), p = dot(d, s), q = dot(d, t), det = 1 - c * c;
-    double u, v;
-    if (det > 1e-4) {
-      u = (p - c * q) / det;
-      v = (c * p - q) / det;
-    } else {
-      u = 0.5 * p;
-      v = -0.5 * q;
-    }
-    if (!advance(a, u) || !advance(b, v)) return false;
+/// Moves the approached points towards their curves by a step of Newton's iteration.
+void SplittingLines::project(double reach) {
+  std::array<ValueAndGradient, 16> values;
+  cell_.values_and_gradients(approached_, &values);
+  for (std::size_t i = 0; i < approached_.size(); ++i) {
+    BoundaryPoint& p = approached_[i];
+    const auto& [value, g] = values[i];
+    const double square = dot(g, g), step = value / square;
+    for (int k = 0; k < 2; ++k) p.at[k] -= std::clamp(step * g[k], -reach, reach);
+    const double scale = 1 / std::sqrt(square);
+    p.normal = {g[0] * scale, g[1] * scale};
   }
-  return true;
+}
+
+/// Of two branches, from points 0 to 1 and from 2 to 3, some points are found on the way; proposes
+/// the line with the widest gap between those of either branch, if there is one that separates
+/// them.
+void SplittingLines::separate(const std::array<int, 4>& ends) {
+  constexpr int kOnBranch = 8, kCoarse = 16, kDirections = 256;
+  static const auto directions = half_turn<kDirections>();
+  const auto& points = cell_.points();
+  const Box<2>& bounds = cell_.bounds();
+  const Point<2> center = bounds.center();
+  for (int branch = 0; branch < 2; ++branch) {
+    const BoundaryPoint &a = points[ends[2 * branch]], &b = points[ends[2 * branch + 1]];
+    // The tangents in the direction from a to b; at a it leads into the cell, at b out of it.
+    Point<2> s{-a.normal[1], a.normal[0]}, t{-b.normal[1], b.normal[0]};
+    const double length = std::sqrt(square_distance(a.at, b.at)),
+                 inwards = dot(s, minus(center, a.at)) - dot(t, minus(center, b.at)),
+                 scale = inwards < 0 ? -length : length;
+    for (int i = 0; i < kOnBranch; ++i) {
+      const double w = (i + 0.5) / kOnBranch, v = 1 - w;
+      BoundaryPoint& p = approached_[branch * kOnBranch + i];
+      p = a;
+      for (int k = 0; k < 2; ++k)
+        p.at[k] = v * v * (1 + 2 * w) * a.at[k] + w * w * (1 + 2 * v) * b.at[k] +
+                  scale * v * w * (v * s[k] - w * t[k]);
+    }
+  }
+  const double reach = 0.25 * (bounds.width(0) + bounds.width(1));
+  for (int i = 0; i < kProjections; ++i) project(reach);
+  double widest = 0, middle = 0;
+  int best = 0;
+  const auto try_direction = [&](int index) {
+    const Point<2>& d = directions[index % kDirections];
+    std::array<double, 2> least, most;
+    for (int branch = 0; branch < 2; ++branch) {
+      const double from = dot(d, points[ends[2 * branch]].at),
+                   to = dot(d, points[ends[2 * branch + 1]].at);
+      least[branch] = std::min(from, to);
+      most[branch] = std::max(from, to);
+      for (int i = 0; i < kOnBranch; ++i) {
+        const double h = dot(d, approached_[branch * kOnBranch + i].at);
+        least[branch] = std::min(least[branch], h);
+        most[branch] = std::max(most[branch], h);
+      }
+    }
+    for (int above = 0; above < 2; ++above) {
+      const double gap = least[above] - most[1 - above];
+      if (!(gap > widest)) continue;
+      widest = gap;
+      middle = most[1 - above] + 0.5 * gap;
+      best = index;
+    }
+  };
+  int step = kDirections / kCoarse;
+  for (int i = 0; i < kCoarse; ++i) try_direction(i * step);
+  if (!(widest > 0)) return;
+  while ((step /= 2) > 0) {
+    const int around = best;
+    try_direction(around + step);
+    try_direction(around + kDirections - step);
+  }
+  const Point<2>& normal = directions[best % kDirections];
+  cell_.propose(line_through({middle * normal[0], middle * normal[1]}, normal));
+}
+
+/// Long branches that bend beside each other.
+void SplittingLines::propose_between_two_branches() {
+  const auto& points = cell_.points();
+  if (points.size() != 4 || !cell_.cell().crossings.empty()) return;
+  // Neighbours on the boundary are the ends of a branch.
+  if (points[0].curve == points[1].curve && points[2].curve == points[3].curve)
+    separate({0, 1, 2, 3});
+  if (points[1].curve == points[2].curve && points[3].curve == points[0].curve)
+    separate({1, 2, 3, 0});
+}
+
+/// Moves the points of pairs along their curves towards each other (thesis 6.1): tangential steps
+/// that minimise the distance to first order, then back towards the curve. Two steps do: what
+/// matters is a line that both branches leave on their own sides, not the closest pair.
+void SplittingLines::approach() {
+  const Box<2>& bounds = cell_.bounds();
+  const double reach = 0.25 * (bounds.width(0) + bounds.width(1));
+  for (int step = 0; step < kApproachSteps; ++step) {
+    for (int i = 0; i < kApproachedPairs; ++i) {
+      BoundaryPoint &a = approached_[i], &b = approached_[i + kApproachedPairs];
+      const Point<2> d = minus(b.at, a.at);
+      const Point<2> s{-a.normal[1], a.normal[0]}, t{-b.normal[1], b.normal[0]};
+      // Minimise |d + v t - u s|^2.
+      const double c = dot(s, t), p = dot(d, s), q = dot(d, t), det = 1 - c * c;
+      double u, v;
+      if (det > 1e-4) {
+        const double inverse = 1 / det;
+        u = (p - c * q) * inverse;
+        v = (c * p - q) * inverse;
+      } else {
+        u = 0.5 * p;
+        v = -0.5 * q;
+      }
+      u = std::clamp(u, -reach, reach);
+      v = std::clamp(v, -reach, reach);
+      a.at = {a.at[0] + u * s[0], a.at[1] + u * s[1]};
+      b.at = {b.at[0] + v * t[0], b.at[1] + v * t[1]};
+    }
+    for (int i = 0; i < kProjections; ++i) project(reach);
+    for (BoundaryPoint& p : approached_)
+      for (int k = 0; k < 2; ++k) p.at[k] = std::clamp(p.at[k], bounds.lo[k], bounds.hi[k]);
+  }
 }
 
 void SplittingLines::propose_closest_approach() {
@@ -233,9 +324,15 @@ void SplittingLines::propose_closest_approach() {
       if (points[i].curve != points[j].curve || (points[j].index - points[i].index) % 2 == 0)
         pairs_.push_back({i, j, square_distance(points[i].at, points[j].at)});
   keep_closest(kApproachedPairs);
-  for (const Pair& pair : pairs_) {
-    BoundaryPoint a = points[pair.a], b = points[pair.b];
-    if (approach(&a, &b)) cell_.propose(between(a, b));
+  if (pairs_.empty()) return;
+  for (std::size_t i = 0; i < kApproachedPairs; ++i) {
+    const Pair& pair = pairs_[std::min(i, pairs_.size() - 1)];
+    approached_[i] = points[pair.a];
+    approached_[i + kApproachedPairs] = points[pair.b];
+  }
+  approach();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    cell_.propose(between(approached_[i], approached_[i + kApproachedPairs]));
     if (is_good_enough()) return;
   }
 }
@@ -297,14 +394,7 @@ void SplittingLines::propose_refinement() {
 /// often separates two long branches that bend beside each other, where no line derived from them
 /// does.
 void SplittingLines::propose_fans() {
-  static const auto normals = [] {
-    std::array<Point<2>, kFanLines> directions;
-    for (int k = 0; k < kFanLines; ++k) {
-      const double angle = (k + 0.37) * std::numbers::pi / kFanLines;
-      directions[k] = {std::cos(angle), std::sin(angle)};
-    }
-    return directions;
-  }();
+  static const auto normals = half_turn<kFanLines>();
   const auto& points = cell_.points();
   const int n = static_cast<int>(points.size());
   pairs_.clear();
@@ -338,7 +428,7 @@ bool SplittingLines::find_best() {
   propose_between_crossings();
   if (!is_good_enough()) propose_between_branches();
   if (!is_good_enough()) propose_between_curves();
-  cell_.prove_best();
+  if (!is_good_enough()) propose_between_two_branches();
   if (!seems_to_save(fast_ ? kPoorWhenFast : kPoor)) propose_closest_approach();
   if (!fast_ && stall > 0 && stall <= kFanLevels && !seems_to_save(kPoorWhenStalled))
     propose_fans();

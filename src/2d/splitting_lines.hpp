@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "2d/cell_at_hand.hpp"
@@ -36,7 +37,10 @@ class SplittingLines {
   void propose_through_saddles(int curve);
   void propose_between_branches();
   void propose_between_curves();
-  bool approach(BoundaryPoint* a, BoundaryPoint* b) const;
+  void separate(const std::array<int, 4>& ends);
+  void propose_between_two_branches();
+  void approach();
+  void project(double reach);
   void propose_closest_approach();
   void propose_fans();
   Pair longest_chord();
@@ -47,6 +51,7 @@ class SplittingLines {
   Partition& partition_;
   const bool fast_;
   std::vector<Pair> pairs_;
+  std::array<BoundaryPoint, 16> approached_;  // the first points of the pairs, then the second
   std::vector<double> projections_;
 };
 

@@ -292,6 +292,21 @@ void value_at(const Tile& tile, double s, double t, double* result) {
   *result = sum;
 }
 
+void largest_value(const Tile& tile, double s, double t, double* result) {
+  const int n = tile.degree;
+  const double t2 = t * t, t4 = t2 * t2;
+  HWY_ALIGN const double powers[8] = {1, t, t2, t2 * t, t4, t4 * t, t4 * t2, t4 * (t2 * t)};
+  const Row at = Row::all(s), power = Row::load(powers);
+  double sum = 0;
+  for (int j = n / 8 * 8; j >= 0; j -= 8) {
+    const double* a = tile.a[0].data() + j;
+    Row r = absolute(Row::load(a + (n - j) * Tile::kRow));
+    for (int i = n - j - 1; i >= 0; --i) r = r * at + absolute(Row::load(a + i * Tile::kRow));
+    sum = sum_of_lanes(r * power) + sum * (t4 * t4);
+  }
+  *result = sum * (1 + 0x1p-45);
+}
+
 }  // namespace encase::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -305,6 +320,7 @@ HWY_EXPORT(signs);
 HWY_EXPORT(rises);
 HWY_EXPORT(find_sign_change);
 HWY_EXPORT(value_at);
+HWY_EXPORT(largest_value);
 
 }  // namespace
 
@@ -383,6 +399,12 @@ SignChange find_sign_change(const LineNet& net, const BernsteinTables& tables, b
 double value_at(const Tile& tile, const Point<2>& s) {
   double result;
   HWY_DYNAMIC_DISPATCH(value_at)(tile, s[0], s[1], &result);
+  return result;
+}
+
+double largest_value(const Tile& tile, const Point<2>& reach) {
+  double result;
+  HWY_DYNAMIC_DISPATCH(largest_value)(tile, reach[0], reach[1], &result);
   return result;
 }
 

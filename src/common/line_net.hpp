@@ -27,8 +27,9 @@ struct alignas(64) LineNet {
 
 /// The polynomial of a tile on the segment origin + direction s, |s| <= 1, in the tile's
 /// coordinates, from its values at the nodes of the tables. Its coefficients each err by at most
-/// interpolation_roundings(degree) u values_norm sum |a_ij| kReach^(i+j), if the segment lies
-/// within the tile's reach. Here and below `degree` is that of the tables, at least the tile's.
+/// interpolation_roundings(degree) u values_norm sum |a_ij| S^i T^j, if |s| <= S and |t| <= T on
+/// the segment, up to the tile's reach. Here and below `degree` is that of the tables, at least the
+/// tile's.
 void interpolate(const Tile& tile, const Point<2>& origin, const Point<2>& direction,
                  const BernsteinTables& tables, double threshold, LineNet* net);
 
@@ -72,6 +73,10 @@ SignChange find_sign_change(const LineNet& net, const BernsteinTables& tables, b
 /// The value of a tile's polynomial at s, to within value_roundings(degree) u sum |a_ij|
 /// kReach^(i+j).
 double value_at(const Tile& tile, const Point<2>& s);
+
+/// At least sum |a_ij| reach_0^i reach_1^j, and hardly more. The reach is not negative, at most
+/// Tile::kReach.
+double largest_value(const Tile& tile, const Point<2>& reach);
 
 constexpr int interpolation_roundings(int degree) { return 3 * degree + 8; }
 constexpr int substitution_roundings(int degree) { return 4 * degree + 12; }

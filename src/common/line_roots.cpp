@@ -238,14 +238,18 @@ class PathSearch {
     ++kernel_.restrictions;
     const Tile& tile = *piece->tile;
     Part& whole = first_part();
-    // The nodes' images are rounded: twice, each to at most kReach.
+    Point<2> reach;
+    for (int i = 0; i < 2; ++i)
+      reach[i] = (std::fabs(piece->origin[i]) + std::fabs(piece->direction[i])) * kUp;
+    const double sum = largest_value(tile, reach);
+    // The nodes' images are rounded: twice, each to at most the reach.
     const double at_nodes =
-        roundings(interpolation_roundings(piece->degree())) * tile.sum + roundings(3) * tile.slope;
+        roundings(interpolation_roundings(piece->degree()) + 3 * tile.degree) * sum;
     whole.rounding = piece->tables->values_norm * at_nodes * kUp + kUnderflow;
     interpolate(tile, piece->origin, piece->direction, *piece->tables,
                 (whole.rounding + piece->error) * kUp, &whole.net);
-    // The coefficients are means of values of products of factors up to kReach.
-    piece->largest = tile.sum + whole.rounding;
+    // The coefficients are means of values of products of factors up to the reach.
+    piece->largest = sum + whole.rounding;
     return whole;
   }
 

@@ -44,6 +44,9 @@ struct Row {
   HWY_INLINE void store(double* to) const {
     for (int k = 0; k < kParts; ++k) hn::Store(part[k], Lanes(), to + k * kLanes);
   }
+  HWY_INLINE void store_unaligned(double* to) const {
+    for (int k = 0; k < kParts; ++k) hn::StoreU(part[k], Lanes(), to + k * kLanes);
+  }
 };
 
 #define ENCASE_ROW_OPERATION(name, operation)                                         \

@@ -25,26 +25,20 @@ HWY_INLINE std::uint32_t positive_lanes(const Row& row) {
   return bits;
 }
 
-/// Bit k: the value at the point s + k ds, t + k dt is positive.
+/// Bit k: the value at the point s + k ds, t + k dt is positive. For k < 8.
 std::uint32_t positive_at(const Tile& tile, double s, double ds, double t, double dt) {
-  HWY_ALIGN static constexpr double kNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                    8, 9, 10, 11, 12, 13, 14, 15};
-  const Row zero = Row::all(0), low = Row::load(kNumbers), high = Row::load(kNumbers + 8);
-  const Row s0 = Row::all(s) + low * Row::all(ds), s1 = Row::all(s) + high * Row::all(ds);
-  const Row t0 = Row::all(t) + low * Row::all(dt), t1 = Row::all(t) + high * Row::all(dt);
-  Row sum0 = zero, sum1 = zero;
+  HWY_ALIGN static constexpr double kNumbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  const Row number = Row::load(kNumbers);
+  const Row at_s = Row::all(s) + number * Row::all(ds);
+  const Row at_t = Row::all(t) + number * Row::all(dt);
+  Row sum = Row::all(0);
   for (int i = tile.degree; i >= 0; --i) {
     const double* row = tile.a[i].data();
-    Row inner0 = Row::all(row[tile.degree - i]), inner1 = inner0;
-    for (int j = tile.degree - i - 1; j >= 0; --j) {
-      const Row a = Row::all(row[j]);
-      inner0 = inner0 * t0 + a;
-      inner1 = inner1 * t1 + a;
-    }
-    sum0 = sum0 * s0 + inner0;
-    sum1 = sum1 * s1 + inner1;
+    Row inner = Row::all(row[tile.degree - i]);
+    for (int j = tile.degree - i - 1; j >= 0; --j) inner = inner * at_t + Row::all(row[j]);
+    sum = sum * at_s + inner;
   }
-  return positive_lanes(sum0) | positive_lanes(sum1) << 8;
+  return positive_lanes(sum);
 }
 
 /// The value and the derivatives up to the second order, by Horner's rule in either variable.
@@ -85,6 +79,7 @@ HWY_EXPORT(positive_at);
 HWY_EXPORT(jets_at);
 
 constexpr int kSamples = 16;
+constexpr double kReach = 2;  // a tile is good enough for a look a little beyond its rectangle
 
 }  // namespace
 
@@ -93,21 +88,22 @@ int count_sign_changes(TiledPolynomial& f, const Point<2>& from, const Point<2>&
   const Point<2> first{from[0] + 0.5 * step[0], from[1] + 0.5 * step[1]};
   std::uint32_t positive = 0;
   for (int done = 0; done < kSamples;) {
-    const Tile& tile = f.at({first[0] + done * step[0], first[1] + done * step[1]});
+    const Point<2> at{first[0] + done * step[0], first[1] + done * step[1]};
+    const Tile& tile = f.at(at);
     Point<2> start, stride;
-    int end = kSamples;
+    int count = std::min(8, kSamples - done);
     for (int i = 0; i < 2; ++i) {
       const double scale = 1 / tile.half[i];
-      start[i] = (first[i] - tile.center[i]) * scale;
+      start[i] = (at[i] - tile.center[i]) * scale;
       stride[i] = step[i] * scale;
-      if (std::fabs(start[i] + (end - 1) * stride[i]) > Tile::kReach)
-        end = static_cast<int>((std::copysign(Tile::kReach, stride[i]) - start[i]) / stride[i]) + 1;
+      if (std::fabs(start[i] + (count - 1) * stride[i]) > kReach)
+        count = static_cast<int>((std::copysign(kReach, stride[i]) - start[i]) / stride[i]) + 1;
     }
-    end = std::max(end, done + 1);
+    count = std::max(count, 1);
     const std::uint32_t here =
         HWY_DYNAMIC_DISPATCH(positive_at)(tile, start[0], stride[0], start[1], stride[1]);
-    positive |= here & ((1u << end) - (1u << done));
-    done = end;
+    positive |= (here & ((1u << count) - 1)) << done;
+    done += count;
   }
   return std::popcount((positive ^ (positive >> 1)) & ((1u << (kSamples - 1)) - 1));
 }
