@@ -64,12 +64,16 @@ class RegionParser {
   explicit RegionParser(std::string_view text) : text_(text) {}
 
   std::variant<Region, SyntaxError> parse() {
-    constexpr char kForms[] = "'xmin xmax ymin ymax' or 'polygon (x,y) (x,y) ...'";
+    constexpr char kForms[] = "'xmin xmax ymin ymax', 'polygon (x,y) (x,y) ...' or 'plane'";
     skip_blanks();
     const std::string_view first = word();
     if (first.empty()) return error(std::string("a region is ") + kForms);
-    if (first == "plane")
-      return error("the whole plane is not supported yet; give 'xmin xmax ymin ymax' or a polygon");
+    if (first == "plane") {
+      position_ += first.size();
+      skip_blanks();
+      if (position_ < text_.size()) return error("nothing may follow 'plane'");
+      return whole_plane();
+    }
     if (first == "polygon") {
       position_ += first.size();
       return polygon();
@@ -263,7 +267,8 @@ class JsonReader {
   }
 
   bool read_region(const JsonTree& value) {
-    constexpr char kForms[] = "expected [xmin, xmax, ymin, ymax] or {\"polygon\": [[x, y], ...]}";
+    constexpr char kForms[] =
+        "expected [xmin, xmax, ymin, ymax], {\"polygon\": [[x, y], ...]} or \"plane\"";
     if (value.kind == Kind::Array) {
       if (value.items.size() != 4) return fail("region", kForms);
       std::array<Rational, 4> b;
@@ -271,8 +276,7 @@ class JsonReader {
         if (!read_number(value.items[i], "region[" + std::to_string(i) + "]", &b[i])) return false;
       return take_region(make_region(b[0], b[1], b[2], b[3]));
     }
-    if (value.kind == Kind::String && value.text == "plane")
-      return fail("region", "the whole plane is not supported yet");
+    if (value.kind == Kind::String && value.text == "plane") return take_region(whole_plane());
     if (value.kind != Kind::Object || value.members.size() != 1 ||
         value.members[0].first != "polygon" || value.members[0].second.kind != Kind::Array)
       return fail("region", kForms);

@@ -44,6 +44,7 @@ constexpr Name<Unresolved::Kind> kKinds[] = {
     {Unresolved::Kind::Concurrency, "concurrency"},
     {Unresolved::Kind::SharedComponent, "shared_component"},
     {Unresolved::Kind::RepeatedComponent, "repeated_component"},
+    {Unresolved::Kind::Infinity, "infinity"},
     {Unresolved::Kind::Budget, "budget"}};
 
 template <class E, std::size_t N>
@@ -162,6 +163,7 @@ void put_terms(Writer& w, const Polynomial<2>& polynomial) {
 }
 
 void put_region(Writer& w, const Region& region) {
+  if (region.plane) return w.put("plane");
   w.raw("{\"polygon\":");
   w.list(region.corners);
   w.raw("}");
@@ -439,6 +441,10 @@ Polynomial<2> read_terms(const Node& node) {
 }
 
 Region read_region(const Node& node) {
+  if (node.is_text()) {
+    if (node.text() != "plane") node.fail("a region is a polygon or \"plane\"");
+    return whole_plane();
+  }
   const Node polygon = node.member("polygon");
   auto corners = polygon.map([](const Node& corner) {
     corner.of_size(2);
@@ -662,6 +668,14 @@ Encasement read_encasement(const Node& root) {
     return CriticalCover{item.member("curve").index(e.curves.size()), item.member("root").box(),
                          read_tokens(item.member("tokens"), e.critical_regions.size())};
   });
+  e.infinity = root.member("infinity").map([&](const Node& item) {
+    InfinityPiece piece;
+    piece.chart = static_cast<int>(item.member("chart").integer(0, 1));
+    piece.lo = item.member("lo").number();
+    piece.hi = item.member("hi").number();
+    piece.curve = item.member("curve").index_or_null(e.curves.size());
+    return piece;
+  });
   e.degenerate = read_unresolved(root.member("degenerate"), e);
   e.undecided = read_unresolved(root.member("undecided"), e);
   e.statistics = read_statistics(root.member("statistics"));
@@ -734,6 +748,15 @@ std::string to_json(const Encasement& e) {
   top("history");
   w.lines(e.history, [&](const Split& split) {
     w.put(std::array<int, 3>{split.line, split.negative, split.positive});
+  });
+  top("infinity");
+  w.lines(e.infinity, [&](const InfinityPiece& piece) {
+    w.raw("{");
+    w.field("chart", piece.chart);
+    w.field("lo", piece.lo);
+    w.field("hi", piece.hi);
+    w.key("curve"), w.put_index(piece.curve);
+    w.raw("}");
   });
   top("degenerate"), put_unresolved(w, e.degenerate);
   top("undecided"), put_unresolved(w, e.undecided);

@@ -25,8 +25,9 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
       ->type_name("EXPR")
       ->expected(1)
       ->take_all();
-  c->add_option("--region", r.region,
-                "\"xmin xmax ymin ymax\" or \"polygon (x,y) (x,y) ...\"; overrides the file's")
+  c->add_option(
+       "--region", r.region,
+       "\"xmin xmax ymin ymax\", \"polygon (x,y) (x,y) ...\" or \"plane\"; overrides the file's")
       ->type_name("REGION");
   c->add_option("--json", r.json, "write the result, everything that proves it included")
       ->type_name("FILE");
@@ -68,10 +69,9 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
   c->add_flag("-v", r.verbose, "report what each step did");
   c->footer(
       "FILE has lines `name: expression` or `expression`, with ^ for powers and exact decimals or\n"
-      "fractions, and `region: xmin xmax ymin ymax` or `region: polygon (x,y) (x,y) ...`; # starts "
-      "a\n"
-      "comment. With - for FILE of --json or --svg it goes to standard output and the report to\n"
-      "standard error.\n\n" +
+      "fractions, and `region: xmin xmax ymin ymax`, `region: polygon (x,y) (x,y) ...` or\n"
+      "`region: plane`; # starts a comment. With - for FILE of --json or --svg it goes to standard\n"
+      "output and the report to standard error.\n\n" +
       std::string(kExitCodes));
 }
 

@@ -46,6 +46,8 @@ const char* name(Unresolved::Kind kind) {
       return "shared component";
     case Unresolved::Kind::RepeatedComponent:
       return "repeated component";
+    case Unresolved::Kind::Infinity:
+      return "infinity";
     case Unresolved::Kind::Budget:
       return "budget";
   }
@@ -144,7 +146,12 @@ std::string report(const Encasement& encasement) {
   if (encasement.perturbation > 0)
     fmt::format_to(out, "every coefficient is perturbed: delta {}, seed {}\n",
                    encasement.perturbation, encasement.seed);
-  if (encasement.region_used.corners != encasement.region.corners)
+  if (encasement.region.plane)
+    fmt::format_to(out, "{} is proved to be simple outside of |x| <= {}, |y| <= {}\n",
+                   encasement.infinity.empty() ? "not everything" : "everything",
+                   -encasement.region_used.corners[0][0].get_d(),
+                   -encasement.region_used.corners[0][1].get_d());
+  else if (encasement.region_used.corners != encasement.region.corners)
     text +=
         "a side or corner of the region is not in generic position: a slightly larger polygon "
         "is encased\n";

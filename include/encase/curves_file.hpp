@@ -19,7 +19,6 @@ namespace encase {
 struct CurvesFile {
   std::vector<NamedCurve> curves;  ///< at least one, none zero or constant, names all different
   std::optional<Region> region;    ///< nothing if the file names none
-  bool whole_plane = false;        ///< `region: plane`; refused at present
 };
 
 /// Reads the text format, or JSON where the first character that is not blank is `{`. `source` is
@@ -35,7 +34,7 @@ Result<CurvesFile> load_curves(const std::string& path);
 Result<Polynomial<2>> parse_polynomial(const std::string& text,
                                        const std::string& source = "expression");
 
-/// Reads `xmin xmax ymin ymax` or `polygon (x,y) (x,y) ...`.
+/// Reads `xmin xmax ymin ymax`, `polygon (x,y) (x,y) ...` or `plane`.
 Result<Region> parse_region(const std::string& text, const std::string& source = "region");
 
 }  // namespace encase

@@ -153,6 +153,7 @@ struct Unresolved {
     Concurrency,        ///< three curves meet or nearly meet in a point
     SharedComponent,    ///< input curves share a component (proved, no box)
     RepeatedComponent,  ///< an input curve has a repeated component (proved, no box)
+    Infinity,           ///< curves touch the line at infinity or meet on it, or nearly (no box)
     Budget              ///< a limit on cells, seconds, precision or a cancellation
   };
   Kind kind = Kind::Budget;
@@ -162,6 +163,18 @@ struct Unresolved {
   bool proved = false;      ///< the diagnosis is proved
   std::string reason;       ///< a sentence for people
 };
+
+/// Part of the proof that outside of the rectangle that is partitioned in place of the whole plane
+/// all is known. With the rectangle [-a, a] x [-b, b], outside of it x = a / u, y = b v / u (chart
+/// 0) or x = a v / u, y = b / u (chart 1), |u| <= 1, |v| <= 1; a piece is lo <= v <= hi.
+struct InfinityPiece {
+  int chart = 0;
+  double lo = 0, hi = 0;
+  /// The only curve there, in arcs v = v(u), each from the rectangle to infinity (u = 0) and on to
+  /// the rectangle's opposite side; -1: none.
+  int curve = -1;
+};
+
 
 struct Statistics {
   DecisionCounts decisions;
@@ -192,6 +205,9 @@ struct Encasement {
   std::vector<CrossingCover> crossing_covers;  ///< one a pair of curves
   std::vector<CriticalCover> critical_covers;  ///< one a curve
   std::vector<CriticalRegion> critical_regions;
+  /// If `region` is the plane: what is proved outside of `region_used`, a rectangle around the
+  /// origin; empty where something is reported there.
+  std::vector<InfinityPiece> infinity;
   std::vector<Unresolved> degenerate;
   std::vector<Unresolved> undecided;
   Statistics statistics;

@@ -8,9 +8,11 @@
 
 namespace encase {
 
-/// A closed convex polygon with exact corners in counter-clockwise order, no three on a line.
+/// A closed convex polygon with exact corners in counter-clockwise order, no three on a line; or the
+/// whole plane.
 struct Region {
   std::vector<RationalPoint<2>> corners;
+  bool plane = false;  ///< without corners
 
   /// Side k from corner k to corner k + 1; the inside is its negative side.
   Line side(int k) const;
@@ -18,6 +20,9 @@ struct Region {
   /// The smallest box with double bounds that contains the region.
   Box<2> bounding_box() const;
 };
+
+/// The whole plane.
+inline Region whole_plane() { return {{}, true}; }
 
 /// Takes corners in either orientation, drops those within a side, and rejects polygons that are
 /// not convex or have no area (BadInput, naming the corner).

@@ -70,6 +70,8 @@ const char* text(Unresolved::Kind kind) {
       return "shared_component";
     case Unresolved::Kind::RepeatedComponent:
       return "repeated_component";
+    case Unresolved::Kind::Infinity:
+      return "infinity";
     case Unresolved::Kind::Budget:
       break;
   }

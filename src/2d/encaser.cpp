@@ -6,6 +6,7 @@
 
 #include "2d/critical_regions.hpp"
 #include "2d/encaser.hpp"
+#include "2d/infinity.hpp"
 #include "2d/locate.hpp"
 #include "2d/saddles.hpp"
 #include "common/components.hpp"
@@ -78,7 +79,8 @@ Status Encaser::check_input() const {
   const auto bad = [](std::string message) {
     return Status(Error{Error::Code::BadInput, std::move(message)});
   };
-  if (result_.region.corners.size() < 3) return bad("the region has fewer than three corners");
+  if (!result_.region.plane && result_.region.corners.size() < 3)
+    return bad("the region has fewer than three corners");
   for (const NamedCurve& curve : result_.input) {
     if (curve.polynomial.is_zero())
       return bad("curve '" + curve.name + "' is the zero polynomial: every point lies on it");
@@ -148,6 +150,7 @@ void Encaser::use_region(const Region& region) {
 }
 
 bool Encaser::open_region() {
+  if (result_.region.plane) return open_plane();
   // The region itself, or one of some slightly larger polygons in which every curve meets the sides
   // in simple points, none of them a corner or shared (design of the boundary: docs/encasement.md).
   for (int attempt = 0; attempt < 6; ++attempt) {
@@ -158,23 +161,56 @@ bool Encaser::open_region() {
     } else {
       continue;
     }
-    if (auto cell = partition_->open(sides_)) {
-      first_cell_ = std::move(*cell);
-      isolate_crossings();
-      // Every crossing box must lie on one side of every side's line.
-      bool clear = true;
-      for (const Crossing& crossing : partition_->crossings) {
-        const Place place(crossing.box);
-        for (const Line& line : sides_) clear = clear && side(line, place, kernel_).has_value();
-      }
-      if (clear) return true;
-    }
+    if (open_polygon()) return true;
   }
   return false;
 }
 
+/// Whether the polygon to be used is generic for the curves.
+bool Encaser::open_polygon() {
+  auto cell = partition_->open(sides_);
+  if (!cell) return false;
+  first_cell_ = std::move(*cell);
+  isolate_crossings();
+  // Every crossing box must lie on one side of every side's line.
+  bool clear = true;
+  for (const Crossing& crossing : partition_->crossings) {
+    const Place place(crossing.box);
+    for (const Line& line : sides_) clear = clear && side(line, place, kernel_).has_value();
+  }
+  return clear;
+}
+
+/// In place of the plane a rectangle outside of which the curves are known, as far as that can be.
+bool Encaser::open_plane() {
+  std::vector<Polynomial<2>> curves;
+  for (const Curve& curve : result_.curves) curves.push_back(curve.polynomial);
+  Surroundings surroundings = find_surroundings(curves, kernel_);
+  const Rational x(surroundings.half[0]), y(surroundings.half[1]);
+  use_region(make_region(-x, x, -y, y).value());
+  for (Surroundings::Open& open : surroundings.open) {
+    Unresolved entry;
+    entry.kind = Unresolved::Kind::Infinity;
+    std::sort(open.curves.begin(), open.curves.end());
+    std::string names;
+    for (const int c : open.curves)
+      names += (names.empty() ? "'" : " and '") + result_.curves[c].name + "'";
+    const double v = 0.5 * (open.lo + open.hi), ratio = surroundings.half[1] / surroundings.half[0];
+    const Point<2> direction = open.chart == 0 ? Point<2>{1, v * ratio} : Point<2>{v / ratio, 1};
+    entry.reason =
+        (open.curves.size() == 1
+             ? "curve " + names + " touches the line at infinity, or nearly,"
+             : "curves " + names + " touch the line at infinity or meet on it, or nearly,") +
+        " in the direction (" + decimal(direction[0]) + ", " + decimal(direction[1]) + ")";
+    entry.curves = std::move(open.curves);
+    result_.degenerate.push_back(std::move(entry));
+  }
+  if (surroundings.open.empty()) result_.infinity = std::move(surroundings.pieces);
+  return open_polygon();
+}
+
 void Encaser::give_up_on_region() {
-  use_region(result_.region);
+  if (!result_.region.plane) use_region(result_.region);
   partition_->lines = sides_;
   isolate_crossings();
   find_critical_regions();

@@ -40,6 +40,8 @@ class Encaser {
   bool out_of_budget();
   /// Tells the caller's progress callback; a refusal uses the budget up.
   void progress(const char* stage, double done);
+  bool open_polygon();
+  bool open_plane();
   SubdivisionLimits limits(const char* stage, Unresolved::Kind kind);
   void use_region(const Region& region);
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;

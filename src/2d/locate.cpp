@@ -67,7 +67,8 @@ bool on_line(const Encasement& encasement, const Crossing& crossing, const Line&
 }  // namespace
 
 void locate_crossings(Encasement& encasement, Kernel& kernel) {
-  if (encasement.region_used.corners == encasement.region.corners) return;
+  if (encasement.region.plane || encasement.region_used.corners == encasement.region.corners)
+    return;
   std::vector<Line> sides;
   for (int k = 0; k < encasement.region.side_count(); ++k)
     sides.push_back(encasement.region.side(k));

@@ -74,7 +74,8 @@ void check_input_structure(Claims& claims) {
     for (int s : curve.sources) sources = sources && in_range(s, e.input);
     claims.require(sources, "Curve ", i, " does not name ascending indices of input curves.");
   }
-  claims.require(is_region(e.region), "The region is not a polygon with rational corners.");
+  claims.require(e.region.plane ? e.region.corners.empty() : is_region(e.region),
+                 "The region is not a polygon with rational corners.");
   claims.require(is_region(e.region_used),
                  "The region used is not a polygon with rational corners.");
   for (std::size_t i = 0; i < e.lines.size() && !claims.full(); ++i)
@@ -187,7 +188,8 @@ void check_certificate_structure(Claims& claims) {
       claims.require(curves, name, " entry ", i, " does not name ascending indices of curves.");
       claims.require(!u.has_box || ordered(u.box), name, " entry ", i, " has a bad box.");
       claims.require(component || u.kind == Kind::Contact || u.kind == Kind::SingularPoint ||
-                         u.kind == Kind::Concurrency || u.kind == Kind::Budget,
+                         u.kind == Kind::Concurrency ||
+                         (u.kind == Kind::Infinity && e.region.plane) || u.kind == Kind::Budget,
                      name, " entry ", i, " has no valid kind.");
     }
 }

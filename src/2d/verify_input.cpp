@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "common/box_tests.hpp"
 #include "common/components.hpp"
+#include "common/substitute.hpp"
 #include "verify_claims.hpp"
 
 namespace encase::verification {
@@ -148,6 +151,64 @@ Rational squared_distance(const Region& region, std::size_t k, const Vector& poi
   return dot(offset, offset);
 }
 
+/// The half widths of a rectangle around the origin that are doubles; zero if it is none.
+Point<2> half_widths(const Region& region) {
+  Point<2> half{0, 0};
+  for (int i = 0; i < 2; ++i) half[i] = std::fabs(region.corners[0][i].get_d());
+  bool right = region.corners.size() == 4 && half[0] > 0 && half[1] > 0;
+  for (const Vector& corner : region.corners)
+    for (int i = 0; i < 2; ++i) right = right && abs(corner[i]) == Rational(half[i]);
+  return right ? half : Point<2>{0, 0};
+}
+
+/// The pieces cover every chart from -1 to 1. In a piece without a curve none has a zero; in the
+/// others only one has, and its derivative along v has none there. The corners of the rectangle,
+/// where the charts meet, are in pieces without a curve. So a curve has in a row of its pieces
+/// either no zero or one for every u, and it goes from the rectangle to infinity and on without
+/// meeting another.
+void check_infinity(Claims& claims) {
+  const Encasement& e = claims.result;
+  const Point<2> half = half_widths(e.region_used);
+  if (!claims.require(half[0] > 0, "The region used is not a rectangle around the origin.")) return;
+  const bool reported =
+      std::any_of(e.degenerate.begin(), e.degenerate.end(),
+                  [](const Unresolved& u) { return u.kind == Unresolved::Kind::Infinity; });
+  if (e.infinity.empty()) {
+    claims.require(reported, "Nothing is said of the plane outside of the region used.");
+    return;
+  }
+  for (int chart = 0; chart < 2; ++chart) {
+    std::vector<FilteredPolynomial<2>> curves, slopes;
+    for (const Curve& curve : e.curves) {
+      const Polynomial<2> f = outside_of_rectangle(curve.polynomial, half, chart);
+      curves.emplace_back(f);
+      slopes.emplace_back(f.derivative(1));
+    }
+    double reached = -1;
+    for (std::size_t k = 0; k < e.infinity.size(); ++k) {
+      const InfinityPiece& piece = e.infinity[k];
+      if (piece.chart != chart) continue;
+      const bool corner = piece.lo == -1 || piece.hi == 1;
+      claims.require(piece.lo == reached && piece.hi > piece.lo && piece.hi <= 1, "Piece ", k,
+                     " at infinity does not follow the one before.");
+      claims.require(piece.curve == -1 || (piece.curve >= 0 && !corner &&
+                                           piece.curve < static_cast<int>(e.curves.size())),
+                     "Piece ", k, " at infinity cannot have curve ", piece.curve, ".");
+      if (claims.full()) return;
+      const Box<2> box{{-1, piece.lo}, {1, piece.hi}};
+      for (std::size_t c = 0; c < curves.size() && box.lo[1] < box.hi[1]; ++c) {
+        const bool its = static_cast<int>(c) == piece.curve;
+        const auto& f = its ? slopes[c] : curves[c];
+        claims.require(f.degree() >= 0 && sign_on_box(f, box, claims.kernel),
+                       its ? "The direction of curve " : "The sign of curve ", c, " in piece ", k,
+                       " at infinity is not proved.");
+      }
+      reached = piece.hi;
+    }
+    claims.require(reached == 1, "The pieces at infinity do not cover chart ", chart, ".");
+  }
+}
+
 }  // namespace
 
 void check_curves(Claims& claims) {
@@ -160,11 +221,14 @@ bool check_regions(Claims& claims) {
   const Encasement& e = claims.result;
   const Region& asked = e.region;
   const Region& used = e.region_used;
-  if (!claims.require(convex(asked), "The region is not a convex polygon, counter-clockwise.") ||
+  if (!claims.require(asked.plane || convex(asked),
+                      "The region is not a convex polygon, counter-clockwise.") ||
       !claims.require(convex(used), "The region used is not a convex polygon, counter-clockwise."))
     return false;
 
-  if (used.corners != asked.corners) {
+  if (asked.plane) {
+    check_infinity(claims);
+  } else if (used.corners != asked.corners) {
     bool larger = true;
     for (const Vector& corner : asked.corners) larger = larger && contains(used, corner);
     claims.require(larger, "The region used does not contain the region.");

@@ -192,6 +192,18 @@ TEST_P(CgalMatch, WhenTheRegionIsASquareTriangleOrHexagon) {
   expect_match_in(curves, roots, hexagon());
 }
 
+TEST_P(CgalMatch, WhenTheRegionIsThePlane) {
+  if (GetParam().degree > 5) GTEST_SKIP() << "crossings far away make this slow";
+  const auto curves = random_pair(GetParam(), -1, 1);
+  const Result<Encasement> result = encase(curves, whole_plane());
+  ASSERT_TRUE(result.ok()) << result.error().message;
+  EXPECT_EQ(result.value().outcome, Outcome::Certified);
+  expect_verified(result.value());
+  const CgalRoots roots(curves[0].polynomial, curves[1].polynomial);
+  EXPECT_EQ(static_cast<int>(result.value().crossings.size()), roots.size());
+  expect_roots_match(result.value(), 0, 1, roots);
+}
+
 TEST_P(CgalMatch, WhenTheRegionIsSmall) {
   const Rational lo(-1, 10), hi(1, 10);
   const auto curves = random_pair(GetParam(), lo, hi);

@@ -48,7 +48,12 @@ TEST(CurvesText, NamesAreKeptOrNumbered) {
   ASSERT_TRUE(file.region);
   EXPECT_EQ(file.region->corners[0], (RationalPoint<2>{-2, Rational(-1, 2)}));
   EXPECT_EQ(file.region->corners[2], (RationalPoint<2>{2, Rational(1, 2)}));
-  EXPECT_FALSE(file.whole_plane);
+  EXPECT_FALSE(file.region->plane);
+}
+
+TEST(CurvesText, TheWholePlaneIsARegion) {
+  EXPECT_TRUE(read("x\nregion: plane").region->plane);
+  EXPECT_TRUE(read(R"({"curves": [{"expr": "x"}], "region": "plane"})").region->plane);
 }
 
 TEST(CurvesText, ARegionIsNotRequired) { EXPECT_FALSE(read("x").region); }
@@ -120,7 +125,7 @@ TEST(CurvesText, BadRegionsAreRefusedWithAReason) {
   expect_refused("x\nregion: 0 nan 0 1", "f.curves:2:11: 'nan' is not a number");
   expect_refused("x\nregion: 0 inf 0 1", "'inf' is not a number");
   expect_refused("x\nregion: 0 1 0 1e400", "too far away");
-  expect_refused("x\nregion: plane", "not supported yet");
+  expect_refused("x\nregion: plane 1", "f.curves:2:15: nothing may follow 'plane'");
   expect_refused("x\nregion: 0 1 0 1\nregion: 0 1 0 1", "f.curves:3:1: the region is given twice");
   expect_refused("x\nregion: polygon (0,0) (1,1)", "at least three corners");
   expect_refused("x\nregion: polygon (0,0) (1,1) (2,2)", "no area");

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "2d/infinity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "common/box_tests.hpp"
+#include "common/substitute.hpp"
+
+namespace encase {
+namespace {
+
+constexpr int kLeastPower = -20, kMostPower = 40;  // of two, the rectangles' half widths
+constexpr double kNarrowest = 0x1p-16;             // pieces are halved down to this
+constexpr double kWidest = 0.5;  // what may stay open around one direction: it is to be far away
+// Of the sides: curves that go to infinity along a diagonal of one rectangle do not along others'.
+constexpr std::array<double, 4> kRatios{1, 0.75, 1.375, 0.625};
+
+/// A curve in a chart, and its derivative along v.
+struct Outside {
+  FilteredPolynomial<2> f, slope;
+  Outside(const Polynomial<2>& p, const Point<2>& half, int chart)
+      : Outside(outside_of_rectangle(p, half, chart)) {}
+  explicit Outside(const Polynomial<2>& p) : f(p), slope(p.derivative(1)) {}
+};
+
+Box<2> box_of(double lo, double hi) { return {{-1, lo}, {1, hi}}; }
+
+bool keeps_sign(const FilteredPolynomial<2>& f, double lo, double hi, Kernel& kernel) {
+  return f.degree() >= 0 && sign_on_box(f, box_of(lo, hi), kernel).has_value();
+}
+
+/// The pieces of one chart for one rectangle.
+class Charting {
+ public:
+  Charting(const std::vector<Polynomial<2>>& curves, const Point<2>& half, int chart,
+           Kernel& kernel)
+      : chart_(chart), kernel_(kernel) {
+    outside_.reserve(curves.size());
+    for (const Polynomial<2>& p : curves) outside_.emplace_back(p, half, chart);
+  }
+
+  /// False as soon as there are more than `most` open directions, or one is too wide.
+  bool run(std::size_t most, Surroundings* result) {
+    most_ = most;
+    std::vector<int> all(outside_.size());
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<int>(k);
+    return divide(-1, 1, all, result);
+  }
+
+ private:
+  bool divide(double lo, double hi, const std::vector<int>& curves, Surroundings* result) {
+    std::vector<int> here;
+    for (const int c : curves)
+      if (!keeps_sign(outside_[c].f, lo, hi, kernel_)) here.push_back(c);
+    const bool at_corner = lo == -1 || hi == 1;
+    if (here.empty() ||
+        (here.size() == 1 && !at_corner && keeps_sign(outside_[here[0]].slope, lo, hi, kernel_))) {
+      result->pieces.push_back({chart_, lo, hi, here.empty() ? -1 : here[0]});
+      return true;
+    }
+    if (hi - lo <= kNarrowest) {
+      auto& open = result->open;
+      const bool more = !open.empty() && open.back().chart == chart_ && open.back().hi == lo;
+      if (!more && open.size() >= most_) return false;
+      if (!more) open.push_back({chart_, lo, lo, {}});
+      open.back().hi = hi;
+      if (open.back().hi - open.back().lo > kWidest) return false;
+      for (const int c : here)
+        if (std::find(open.back().curves.begin(), open.back().curves.end(), c) ==
+            open.back().curves.end())
+          open.back().curves.push_back(c);
+      return true;
+    }
+    const double middle = 0.5 * (lo + hi);
+    return divide(lo, middle, here, result) && divide(middle, hi, here, result);
+  }
+
+  std::vector<Outside> outside_;
+  int chart_;
+  Kernel& kernel_;
+  std::size_t most_ = 0;
+};
+
+std::optional<Surroundings> try_rectangle(const std::vector<Polynomial<2>>& curves,
+                                          const Point<2>& half, std::size_t most_open,
+                                          Kernel& kernel) {
+  Surroundings result;
+  result.half = half;
+  for (int chart = 0; chart < 2; ++chart)
+    if (!Charting(curves, half, chart, kernel).run(most_open, &result)) return std::nullopt;
+  return result;
+}
+
+/// The smallest rectangle of a ratio that has at most so many open directions.
+std::optional<Surroundings> smallest(const std::vector<Polynomial<2>>& curves, double ratio,
+                                     std::size_t most_open, Kernel& kernel) {
+  const auto at = [&](int power) {
+    const double x = std::ldexp(1.0, power);
+    return try_rectangle(curves, {x, ratio * x}, most_open, kernel);
+  };
+  int power = 0;
+  std::optional<Surroundings> best = at(power);
+  if (best) {
+    while (power > kLeastPower) {
+      auto smaller = at(--power);
+      if (!smaller) break;
+      best = std::move(smaller);
+    }
+  } else {
+    while (!best && power < kMostPower) best = at(++power);
+  }
+  return best;
+}
+
+}  // namespace
+
+Surroundings find_surroundings(const std::vector<Polynomial<2>>& curves, Kernel& kernel) {
+  for (const double ratio : kRatios)
+    if (auto found = smallest(curves, ratio, 0, kernel)) return *std::move(found);
+  // There are directions in which nothing helps: as few as in a large rectangle.
+  constexpr std::size_t kMany = 1000;
+  constexpr int kLarge = 24;
+  std::optional<Surroundings> best;
+  double best_ratio = 1;
+  for (const double ratio : kRatios) {
+    const double x = std::ldexp(1.0, kLarge);
+    auto found = try_rectangle(curves, {x, ratio * x}, kMany, kernel);
+    if (found && (!best || found->open.size() < best->open.size())) {
+      best = std::move(found);
+      best_ratio = ratio;
+    }
+  }
+  if (!best) return {{1, 1}, {}, {{0, -1, 1, {}}, {1, -1, 1, {}}}};
+  auto small = smallest(curves, best_ratio, best->open.size(), kernel);
+  return small ? *std::move(small) : *std::move(best);
+}
+
+}  // namespace encase
