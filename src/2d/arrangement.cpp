@@ -403,16 +403,16 @@ class Builder {
 
 Result<Arrangement> arrange(const Encasement& encasement) {
   if (encasement.outcome == Outcome::Degenerate)
-    return Error{Error::Code::Degenerate, "the encasement is degenerate: without what resists in " +
-                                              std::to_string(encasement.degenerate.size()) +
-                                              " places the arrangement is not known"};
+    return Error{Error::Code::Degenerate,
+                 "the encasement is degenerate: its list of degenerate places says why its "
+                 "arrangement is not known"};
   const auto settled = [](const Cell& cell) {
     return cell.state == CellState::Certified || cell.state == CellState::Relaxed;
   };
   if (encasement.outcome != Outcome::Certified ||
       !std::all_of(encasement.cells.begin(), encasement.cells.end(), settled))
     return Error{Error::Code::Undecided,
-                 "the encasement is not certified: its arrangement is not known"};
+                 "the encasement is undecided: with larger budgets its arrangement may be known"};
   Result<CellParts> parts = make_cell_parts(encasement);
   if (!parts) return parts.error();
   return Builder(encasement, std::move(parts).value()).run();

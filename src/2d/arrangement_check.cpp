@@ -183,7 +183,8 @@ class Canonical {
     return text;
   }
 
-  /// The least of the texts from all beginnings along the component's outer boundary.
+  /// The least of the texts from all beginnings along the component's outer boundary; on the
+  /// region's boundary there is one beginning, at its first corner.
   std::string component(int k) {
     std::map<int, std::string> inside;
     for (const int f : a_.components[k].faces) {
@@ -193,10 +194,16 @@ class Canonical {
     }
     std::string least;
     for (const int h : a_.cycle(a_.components[k].hole)) {
+      if (a_.components[k].parent == a_.outside && !at_first_corner(h)) continue;
       std::string text = from(h, inside);
       if (least.empty() || text < least) least = std::move(text);
     }
     return least;
+  }
+
+  bool at_first_corner(int h) const {
+    const int v = a_.half_edges[h].origin;
+    return v >= 0 && a_.vertices[v].kind == Arr::Vertex::Kind::Corner && a_.vertices[v].index == 0;
   }
 
   /// Numbers half-edges in the order in which they are reached by `twin` and `next`, and writes
