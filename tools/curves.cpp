@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "curves.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "encase/arrangement.hpp"
 #include "encase/curves_file.hpp"
 #include "encase/result_json.hpp"
 #include "encase/svg.hpp"
@@ -102,11 +106,28 @@ Status write_files(const CurvesRequest& r, const Encasement& encasement) {
   return {};
 }
 
+/// The counts of a result; those of its arrangement too where it is certified.
+Result<std::string> summary(const Encasement& encasement) {
+  std::string text = summary_json(encasement);
+  if (encasement.outcome != Outcome::Certified) return text;
+  const Result<Arrangement> arranged = arrange(encasement);
+  if (!arranged) return arranged.error();
+  const Arrangement& a = arranged.value();
+  // The outside of the region is no face that anyone counts.
+  text.insert(
+      text.rfind('}'),
+      fmt::format(",\"vertices\":{},\"edges\":{},\"faces\":{},\"components\":{}", a.vertices.size(),
+                  a.edges.size(), a.faces.size() - 1, a.components.size()));
+  return text;
+}
+
 Status write_report(const CurvesRequest& r, const Encasement& encasement) {
   std::string text = report(encasement);
   if (r.verbose) text += statistics_report(encasement);
   if (r.summary) {
-    if (const Status status = print(summary_json(encasement))) return status;
+    const Result<std::string> counts = summary(encasement);
+    if (!counts) return counts.error();
+    if (const Status status = print(counts.value())) return status;
     if (r.verbose) std::fputs(text.c_str(), stderr);
     return {};
   }

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "2d/arrangement_faces.hpp"
 #include "2d/cell_parts.hpp"
 #include "2d/partition.hpp"
-#include "common/filtered_polynomial.hpp"
 
 namespace encase {
 namespace {
@@ -34,10 +34,10 @@ class Builder {
 
   Result<Arrangement> run() {
     make_vertices();
-    if (make_strands() && make_curve_edges() && make_boundary_edges() && link_half_edges() &&
-        make_faces() && make_components() && find_signs()) {
-      follow_curves();
-      return std::move(a_);
+    if (make_strands() && make_curve_edges() && make_boundary_edges() && link_half_edges()) {
+      make_faces();
+      fault_ = complete(e_, &a_);
+      if (fault_.empty()) return std::move(a_);
     }
     return Error{Error::Code::Internal, "the encasement's parts do not fit together: " + fault_};
   }
@@ -226,7 +226,7 @@ class Builder {
   }
 
   /// Faces in the order of their first pieces; until here half-edges named regions of parts.
-  bool make_faces() {
+  void make_faces() {
     std::vector<int> face_of(parts_.regions, -1);
     a_.outside = 0;
     a_.faces.emplace_back();
@@ -242,144 +242,6 @@ class Builder {
     }
     for (Arrangement::HalfEdge& h : a_.half_edges)
       h.face = h.face == kOutside ? a_.outside : face_of[h.face];
-    return true;
-  }
-
-  /// Numbers the cycles of half-edges and the components of edges.
-  void collect_cycles() {
-    cycle_of_.assign(a_.half_edges.size(), -1);
-    for (int h = 0; h < static_cast<int>(a_.half_edges.size()); ++h) {
-      if (cycle_of_[h] >= 0) continue;
-      for (int k = h; cycle_of_[k] < 0; k = a_.half_edges[k].next)
-        cycle_of_[k] = static_cast<int>(cycles_.size());
-      cycles_.push_back(h);
-    }
-    std::vector<bool> vertex_seen(a_.vertices.size(), false);
-    for (int first = 0; first < static_cast<int>(a_.edges.size()); ++first) {
-      if (a_.edges[first].component >= 0) continue;
-      const int id = static_cast<int>(a_.components.size());
-      Arrangement::Component component;
-      std::vector<int> stack = {first};
-      a_.edges[first].component = id;
-      while (!stack.empty()) {
-        const int edge = stack.back();
-        stack.pop_back();
-        ++component.edges;
-        for (const int h : {2 * edge, 2 * edge + 1}) {
-          const int v = a_.half_edges[h].origin;
-          if (v < 0 || vertex_seen[v]) continue;
-          vertex_seen[v] = true;
-          ++component.vertices;
-          for (const int k : out_[v]) {
-            int& of = a_.edges[Arrangement::edge_of(k)].component;
-            if (of < 0) stack.push_back(Arrangement::edge_of(k));
-            of = id;
-          }
-        }
-      }
-      a_.components.push_back(std::move(component));
-    }
-  }
-
-  /// Faces and components, joined by the cycles along which they meet, form a tree. From the
-  /// outside on, a cycle met from a face is one of its holes, and the other cycles of the component
-  /// there are the outer boundaries of the faces within.
-  bool make_components() {
-    collect_cycles();
-    std::vector<std::vector<int>> at_face(a_.faces.size()), at_component(a_.components.size());
-    for (const int h : cycles_) {
-      at_face[a_.half_edges[h].face].push_back(h);
-      at_component[a_.edges[Arrangement::edge_of(h)].component].push_back(h);
-    }
-    std::vector<int> queue = {a_.outside};
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-      const int f = queue[i];
-      for (const int hole : at_face[f]) {
-        if (a_.faces[f].outer == hole) continue;
-        const int id = a_.edges[Arrangement::edge_of(hole)].component;
-        Arrangement::Component& component = a_.components[id];
-        if (component.parent >= 0) return fail("a component of edges lies in two faces");
-        component.parent = f;
-        component.hole = hole;
-        a_.faces[f].holes.push_back(hole);
-        for (const int outer : at_component[id]) {
-          if (outer == hole) continue;
-          const int inner = a_.half_edges[outer].face;
-          if (inner == a_.outside || a_.faces[inner].outer >= 0)
-            return fail("a face has two outer boundaries");
-          a_.faces[inner].outer = outer;
-          a_.faces[inner].parent = f;
-          component.faces.push_back(inner);
-          queue.push_back(inner);
-        }
-      }
-    }
-    return queue.size() == a_.faces.size() || fail("a face has no outer boundary");
-  }
-
-  /// The signs at a corner of the region are computed; a curve's sign changes across its edges,
-  /// where it is smooth.
-  bool find_signs() {
-    Kernel kernel;
-    std::vector<Sign> signs;
-    for (const Curve& curve : e_.curves) {
-      signs.push_back(
-          FilteredPolynomial<2>(curve.polynomial).sign_at(e_.region_used.corners[0], kernel));
-      if (signs.back() == Sign::Zero) return fail("a curve passes through a corner");
-    }
-    std::vector<std::vector<int>> at_face(a_.faces.size());
-    for (const int h : cycles_) at_face[a_.half_edges[h].face].push_back(h);
-    const int start = a_.half_edges[out_[0][0]].face;
-    std::vector<bool> known(a_.faces.size(), false);
-    known[start] = known[a_.outside] = true;
-    a_.faces[start].signs = std::move(signs);
-    std::vector<int> queue = {start};
-    for (std::size_t i = 0; i < queue.size(); ++i)
-      for (const int first : at_face[queue[i]]) {
-        int h = first;
-        do {
-          const int other = a_.half_edges[Arrangement::twin(h)].face;
-          const int curve = a_.edges[Arrangement::edge_of(h)].curve;
-          if (!known[other]) {
-            known[other] = true;
-            std::vector<Sign> changed = a_.faces[queue[i]].signs;
-            if (curve >= 0) changed[curve] = -changed[curve];
-            a_.faces[other].signs = std::move(changed);
-            queue.push_back(other);
-          }
-          h = a_.half_edges[h].next;
-        } while (h != first);
-      }
-    return queue.size() + 1 == a_.faces.size() || fail("a face has no neighbours");
-  }
-
-  /// Straight on at crossings: from boundary to boundary, then the closed loops.
-  void follow_curves() {
-    std::vector<bool> used(a_.edges.size(), false);
-    for (const bool closed : {false, true})
-      for (int h = 0; h < static_cast<int>(a_.half_edges.size()); ++h) {
-        const int curve = a_.edges[Arrangement::edge_of(h)].curve;
-        const int origin = a_.half_edges[h].origin;
-        if (curve < 0 || used[Arrangement::edge_of(h)]) continue;
-        if (!closed &&
-            (origin < 0 || a_.vertices[origin].kind != Arrangement::Vertex::Kind::OnBoundary))
-          continue;
-        Arrangement::CurveComponent component;
-        component.curve = curve;
-        component.closed = closed;
-        for (int at = h; at >= 0 && !used[Arrangement::edge_of(at)];) {
-          used[Arrangement::edge_of(at)] = true;
-          component.half_edges.push_back(at);
-          const int back = Arrangement::twin(at), v = a_.half_edges[back].origin;
-          if (v < 0 || a_.vertices[v].kind != Arrangement::Vertex::Kind::Crossing) break;
-          component.crossings.push_back(a_.vertices[v].index);
-          const std::vector<int>& out = out_[v];
-          at = out[(std::find(out.begin(), out.end(), back) - out.begin() + 2) % 4];
-        }
-        a_.curve_components.push_back(std::move(component));
-      }
-    std::stable_sort(a_.curve_components.begin(), a_.curve_components.end(),
-                     [](const auto& p, const auto& q) { return p.curve < q.curve; });
   }
 
   static constexpr int kOutside = -2;  ///< in place of a region of parts
@@ -394,8 +256,6 @@ class Builder {
   std::vector<int> first_strand_;                ///< of every cell
   std::vector<std::vector<StrandEnd>> ends_at_;  ///< by line crossing
   std::vector<std::vector<int>> out_;            ///< by vertex, counter-clockwise
-  std::vector<int> cycle_of_;
-  std::vector<int> cycles_;  ///< a half-edge of each
   std::string fault_;
 };
 

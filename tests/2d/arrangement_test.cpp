@@ -408,6 +408,69 @@ TEST(PointLocator, FindsCrossingsByTheirBoxes) {
   }
 }
 
+TEST(PointLocator, FindsOneFaceAlongASegmentWithoutCurves) {
+  RandomOptions many;
+  many.degree = 8;
+  many.count = 3;
+  const Encasement e = encased::run_curves(random_curves(many));
+  const Arrangement a = arranged(e);
+  const PointLocator locator(e, a);
+  std::vector<FilteredPolynomial<2>> curves;
+  for (const Curve& curve : e.curves) curves.emplace_back(curve.polynomial);
+  Kernel kernel;
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> place(-1, 1), step(-0.3, 0.3);
+  int same = 0, different = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const Point<2> p = {place(random), place(random)};
+    const Point<2> q = {p[0] + step(random), p[1] + step(random)};
+    const Feature at_p = locator.locate(p), at_q = locator.locate(q);
+    if (at_q == Feature{Feature::Kind::Face, a.outside}) continue;
+    const bool free = std::all_of(curves.begin(), curves.end(), [&](const auto& f) {
+      return no_root_on_segment(f, p, q, kernel);
+    });
+    (free ? same : different) += 1;
+    if (free) {
+      EXPECT_EQ(at_p, at_q);
+    }
+  }
+  EXPECT_GT(same, 100);
+  EXPECT_GT(different, 100);
+}
+
+TEST(PointLocator, KnowsRegionsWithRationalSides) {
+  const Region triangle = make_region({{Rational(-1, 3), Rational(-2, 7)},
+                                       {Rational(5, 3), Rational(1, 9)},
+                                       {Rational(1, 7), Rational(11, 6)}})
+                              .value();
+  const Encasement e = run({"x^2 + y^2 - 1/2", "y - x/3 - 1/5", "x*y - 1/6"}, triangle);
+  ASSERT_EQ(e.region.corners, e.region_used.corners);
+  const Arrangement a = arranged(e);
+  EXPECT_EQ(count(a, Arrangement::Vertex::Kind::Corner), 3);
+  const PointLocator locator(e, a);
+  for (int k = 0; k < 3; ++k) {
+    const RationalPoint<2>&p = triangle.corners[k], &q = triangle.corners[(k + 1) % 3];
+    for (int i = 0; i <= 50; ++i) {
+      const Rational t = Rational(i) / 50;
+      const RationalPoint<2> point = {Rational(p[0] + t * (q[0] - p[0])),
+                                      Rational(p[1] + t * (q[1] - p[1]))};
+      const Feature feature = locator.locate(point);
+      EXPECT_NE(feature.kind, Feature::Kind::Face);
+      expect_right(e, a, feature, point);
+      if (feature.kind != Feature::Kind::Edge) continue;
+      EXPECT_EQ(a.edges[feature.index].side, k);
+    }
+  }
+  // The line meets the side from corner 2 to corner 0 in a rational point.
+  const Line side = triangle.side(2);
+  const auto s = side.exact();
+  const Rational x = -(s[1] / 5 + s[2]) / (s[0] + s[1] / 3);
+  const Feature meeting = locator.locate(RationalPoint<2>{x, Rational(x / 3 + Rational(1, 5))});
+  ASSERT_EQ(meeting.kind, Feature::Kind::Vertex);
+  EXPECT_EQ(a.vertices[meeting.index].kind, Arrangement::Vertex::Kind::OnBoundary);
+  expect_locates(e, a, 1000, 12);
+}
+
 TEST(PointLocator, CallsWhatIsNotFiniteOutside) {
   const Encasement e = run({"x"});
   const Arrangement a = arranged(e);

@@ -294,7 +294,11 @@ class Files(CommandTest):
         self.assertEqual(summary["status"], "certified")
         self.assertEqual((summary["curves"], summary["crossings"]), (2, 2))
         self.assertEqual(set(summary), {"status", "curves", "crossings", "cells", "relaxed_cells",
-                                        "seconds"})
+                                        "seconds", "vertices", "edges", "faces", "components"})
+        # Two crossings, the cubic's ends and four corners; the circle in two pieces, the cubic in
+        # three, the boundary in six.
+        self.assertEqual([summary[key] for key in ("vertices", "edges", "faces", "components")],
+                         [8, 11, 4, 1])
 
     def test_region_option_overrides_the_files(self):
         run = encase("curves", self.curves(), "--region", "polygon (0,0) (2,0) (0,2)", "--summary")
