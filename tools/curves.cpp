@@ -35,6 +35,7 @@ Status check_options(const CurvesRequest& r) {
         "give either a FILE of curves or expressions with -e; see encase curves --help");
   if ((r.json == "-") + (r.svg == "-") + r.summary > 1)
     return bad_input("only one of --json -, --svg - and --summary can have standard output");
+  if (r.faces && r.svg.empty()) return bad_input("--faces belongs to the picture: give --svg");
   if (r.history && r.vtk_directory.empty())
     return bad_input("--history belongs to the VTK files: give their directory with -o");
   if (r.options.start_bits > r.options.max_bits)
@@ -89,12 +90,18 @@ Result<Input> read(const CurvesRequest& r) {
   return Input{std::move(file.value().curves), *std::move(region)};
 }
 
+Status write_svg(const CurvesRequest& r, const Encasement& encasement) {
+  SvgOptions options;
+  options.faces = r.faces;
+  return write_output(r.svg, to_svg(encasement, options));
+}
+
 /// The files asked for, in the order of their options.
 Status write_files(const CurvesRequest& r, const Encasement& encasement) {
   if (!r.json.empty())
     if (const Status status = write_output(r.json, to_json(encasement))) return status;
   if (!r.svg.empty())
-    if (const Status status = write_output(r.svg, to_svg(encasement))) return status;
+    if (const Status status = write_svg(r, encasement)) return status;
 #ifdef ENCASE_HAVE_OPEN_MESH
   if (!r.mesh.empty())
     if (const Status status = write_open_mesh(encasement, r.mesh)) return status;
