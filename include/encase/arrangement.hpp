@@ -138,8 +138,8 @@ std::string check(const Arrangement& arrangement);
 /// other around vertices and faces, the curves on them, the signs, and what lies in which hole.
 std::string canonical_topology(const Arrangement& arrangement);
 
-/// Tells on which face, edge or vertex points lie, exactly. Refers to the encasement and the
-/// arrangement, which must outlive it. Const calls may run in parallel.
+/// Tells on which face, edge or vertex points lie, exactly. Refers to the encasement, which must
+/// outlive it. Const calls may run in parallel.
 class PointLocator {
  public:
   PointLocator(const Encasement& encasement, const Arrangement& arrangement);

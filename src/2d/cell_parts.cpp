@@ -2,6 +2,7 @@
 #include "2d/cell_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -60,9 +61,14 @@ class Maker {
     };
     const int sides = e_.region_used.side_count();
     if (sides < 3 || static_cast<int>(e_.lines.size()) < sides) return fail("a side has no line");
+    for (const Line& line : e_.lines)
+      if (!std::isfinite(line.normal[0]) || !std::isfinite(line.normal[1]) ||
+          !std::isfinite(line.offset) || (line.normal[0] == 0 && line.normal[1] == 0))
+        return fail("a line is none");
     for (const LineCrossing& c : e_.line_crossings)
-      if (!in(c.line, e_.lines) || !in(c.curve, e_.curves))
-        return fail("a line crossing names no line or no curve");
+      if (!in(c.line, e_.lines) || !in(c.curve, e_.curves) || !std::isfinite(c.lo) ||
+          !std::isfinite(c.hi) || !(c.lo < c.hi))
+        return fail("a line crossing names no line, no curve or no interval");
     for (std::size_t k = 0; k < e_.cells.size(); ++k) {
       const Cell& cell = e_.cells[k];
       bool right = cell.vertices.size() >= 3;
@@ -72,7 +78,9 @@ class Maker {
       for (const Branch& b : cell.branches)
         right = right && in(b.curve, e_.curves) && in(b.from, e_.line_crossings) &&
                 in(b.to, e_.line_crossings);
-      right = right && (cell.crossing == -1 || in(cell.crossing, e_.crossings));
+      right = right &&
+              (cell.crossing == -1 || (in(cell.crossing, e_.crossings) &&
+                                       e_.crossings[cell.crossing].cell == static_cast<int>(k)));
       if (!right) return fail(name(k) + " names what does not exist");
     }
     return true;

@@ -15,6 +15,7 @@
 #include "common/random_polynomials.hpp"
 #include "common/segments.hpp"
 #include "tests/encased.hpp"
+#include "tests/mutations.hpp"
 #include "tests/sample_encasements.hpp"
 
 namespace encase {
@@ -360,6 +361,25 @@ TEST(Arrange, NoticesPartsThatDoNotFit) {
   EXPECT_TRUE(refused([](Encasement& e) {
     for (Cell& cell : e.cells) cell.crossing = -1;
   }));
+}
+
+TEST(Arrange, SurvivesWhatIsCorrupt) {
+  const Encasement good = run({"x^2 + y^2 - 1/2", "y - x/5 - 1/20", "x*y - 1/5"});
+  mutations::Mutator mutator(3);
+  int refused = 0;
+  for (int k = 0; k < 3000; ++k) {
+    Encasement e = good;
+    if (k % 2 == 0)
+      mutator.apply(e);
+    else
+      mutator.corrupt(e, 1 + k % 5);
+    const auto result = arrange(e);
+    refused += !result.ok();
+    if (result) {
+      EXPECT_EQ(check(result.value()), "");
+    }
+  }
+  EXPECT_GT(refused, 500);
 }
 
 /// Curves of the degrees 1, 2, 3, 4, 1, ...
