@@ -7,10 +7,12 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "2d/trace.hpp"
+#include "encase/arrangement.hpp"
 
 namespace encase {
 namespace {
@@ -20,6 +22,9 @@ constexpr std::array<const char*, 6> kColours = {"#0072b2", "#d55e00", "#009e73"
                                                  "#cc79a7", "#56b4e9", "#e69f00"};
 // More curves than colours: the same colours with other strokes.
 constexpr std::array<const char*, 4> kDashes = {"", "7 3", "2 3", "9 3 2 3"};
+// Faces: light enough for the curves' colours.
+constexpr std::array<const char*, 8> kTints = {"#fbe8c8", "#d6e8f5", "#e2f0d9", "#f6dde6",
+                                               "#e6e0f2", "#fdf6c9", "#d5efec", "#ececec"};
 constexpr const char* kDegenerate = "#c1121f";
 constexpr const char* kUndecided = "#7b2cbf";
 constexpr double kRing = 7;         ///< radius of a ring around what is small
@@ -156,12 +161,20 @@ struct View {
 class Picture {
  public:
   Picture(const Encasement& encasement, const SvgOptions& options)
-      : e_(encasement), options_(options) {}
+      : e_(encasement), options_(options) {
+    if (!options_.faces) return;
+    Result<Arrangement> arranged = arrange(e_);
+    if (!arranged) return;
+    arrangement_ = std::move(arranged).value();
+    options_.cells = options_.critical_regions = false;
+  }
 
   std::string draw() {
     lay_out();
-    for (const Cell& cell : e_.cells) hatched_ |= cell.state == CellState::Relaxed;
+    for (const Cell& cell : e_.cells)
+      hatched_ |= options_.cells && cell.state == CellState::Relaxed;
     open();
+    if (arrangement_) draw_faces();
     if (options_.cells) draw_cells();
     if (options_.critical_regions) draw_critical_regions();
     draw_region();
@@ -291,6 +304,46 @@ class Picture {
     add("<path fill=\"none\" stroke=\"#8f959c\" stroke-width=\"{}\" stroke-linejoin=\"round\" "
         "d=\"{}\"/>\n</g>\n",
         pixels(cell_stroke_), outlines);
+  }
+
+  /// Where a curve is negative its code is added without carry: faces with equal signs have the
+  /// same tint, neighbours have different ones, and up to three curves give each face's signs a
+  /// tint of their own.
+  static const char* face_tint(const std::vector<Sign>& signs) {
+    constexpr std::array<unsigned, 7> kCodes = {1, 2, 4, 7, 3, 5, 6};
+    unsigned code = 0;
+    for (std::size_t curve = 0; curve < signs.size(); ++curve)
+      if (signs[curve] == Sign::Negative) code ^= kCodes[curve % kCodes.size()];
+    return kTints[code];
+  }
+
+  void draw_faces() {
+    const auto edges =
+        trace_edges(e_, *arrangement_, kTolerance / std::max(view_.scale_x, view_.scale_y));
+    add("<g id=\"faces\" fill-rule=\"evenodd\">\n");
+    for (std::size_t f = 0; f < arrangement_->faces.size(); ++f) {
+      const Arrangement::Face& face = arrangement_->faces[f];
+      if (face.outer < 0) continue;
+      std::vector<int> boundaries = face.holes;
+      boundaries.insert(boundaries.begin(), face.outer);
+      std::string path;
+      for (const int first : boundaries) {
+        std::vector<Point<2>> points;
+        for (const int h : arrangement_->cycle(first)) {
+          const auto& edge = edges[Arrangement::edge_of(h)];
+          if (h % 2 == 0)
+            points.insert(points.end(), edge.begin(), edge.end());
+          else
+            points.insert(points.end(), edge.rbegin(), edge.rend());
+        }
+        path += view_.path(points, true);
+      }
+      std::string signs;
+      for (const Sign sign : face.signs) signs += sign == Sign::Positive ? "+" : "\u2212";
+      add("<path fill=\"{}\" d=\"{}\"><title>face {}: {}</title></path>\n", face_tint(face.signs),
+          path, f, signs);
+    }
+    add("</g>\n");
   }
 
   void draw_critical_regions() {
@@ -537,7 +590,8 @@ class Picture {
   }
 
   const Encasement& e_;
-  const SvgOptions& options_;
+  SvgOptions options_;
+  std::optional<Arrangement> arrangement_;  ///< where faces are drawn
   View view_;
   double width_ = 0, height_ = 0;
   double cell_stroke_ = 0.7;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "curves.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "encase/arrangement.hpp"
 #include "encase/curves_file.hpp"
 #include "encase/result_json.hpp"
 #include "encase/svg.hpp"
@@ -31,6 +35,7 @@ Status check_options(const CurvesRequest& r) {
         "give either a FILE of curves or expressions with -e; see encase curves --help");
   if ((r.json == "-") + (r.svg == "-") + r.summary > 1)
     return bad_input("only one of --json -, --svg - and --summary can have standard output");
+  if (r.faces && r.svg.empty()) return bad_input("--faces belongs to the picture: give --svg");
   if (r.history && r.vtk_directory.empty())
     return bad_input("--history belongs to the VTK files: give their directory with -o");
   if (r.options.start_bits > r.options.max_bits)
@@ -85,12 +90,18 @@ Result<Input> read(const CurvesRequest& r) {
   return Input{std::move(file.value().curves), *std::move(region)};
 }
 
+Status write_svg(const CurvesRequest& r, const Encasement& encasement) {
+  SvgOptions options;
+  options.faces = r.faces;
+  return write_output(r.svg, to_svg(encasement, options));
+}
+
 /// The files asked for, in the order of their options.
 Status write_files(const CurvesRequest& r, const Encasement& encasement) {
   if (!r.json.empty())
     if (const Status status = write_output(r.json, to_json(encasement))) return status;
   if (!r.svg.empty())
-    if (const Status status = write_output(r.svg, to_svg(encasement))) return status;
+    if (const Status status = write_svg(r, encasement)) return status;
 #ifdef ENCASE_HAVE_OPEN_MESH
   if (!r.mesh.empty())
     if (const Status status = write_open_mesh(encasement, r.mesh)) return status;
@@ -102,11 +113,28 @@ Status write_files(const CurvesRequest& r, const Encasement& encasement) {
   return {};
 }
 
+/// The counts of a result; those of its arrangement too where it is certified.
+Result<std::string> summary(const Encasement& encasement) {
+  std::string text = summary_json(encasement);
+  if (encasement.outcome != Outcome::Certified) return text;
+  const Result<Arrangement> arranged = arrange(encasement);
+  if (!arranged) return arranged.error();
+  const Arrangement& a = arranged.value();
+  // The outside of the region is no face that anyone counts.
+  text.insert(
+      text.rfind('}'),
+      fmt::format(",\"vertices\":{},\"edges\":{},\"faces\":{},\"components\":{}", a.vertices.size(),
+                  a.edges.size(), a.faces.size() - 1, a.components.size()));
+  return text;
+}
+
 Status write_report(const CurvesRequest& r, const Encasement& encasement) {
   std::string text = report(encasement);
   if (r.verbose) text += statistics_report(encasement);
   if (r.summary) {
-    if (const Status status = print(summary_json(encasement))) return status;
+    const Result<std::string> counts = summary(encasement);
+    if (!counts) return counts.error();
+    if (const Status status = print(counts.value())) return status;
     if (r.verbose) std::fputs(text.c_str(), stderr);
     return {};
   }

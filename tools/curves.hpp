@@ -16,6 +16,7 @@ struct CurvesRequest {
   std::string region;                    ///< of --region, overrides the file's
   std::string json;
   std::string svg;
+  bool faces = false;  ///< in the SVG
   std::string mesh;
   std::string vtk_directory;
   bool history = false;

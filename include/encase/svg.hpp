@@ -13,6 +13,8 @@ struct SvgOptions {
   bool axes = true;              ///< a frame with coordinates
   bool cells = true;             ///< cells tinted by what they hold
   bool critical_regions = true;  ///< translucent, in their curve's colour
+  bool faces = false;  ///< in place of cells and critical regions, the faces of the arrangement,
+                       ///< tinted by the curves' signs; only where the answer is certified
 };
 
 /// A picture of an encasement: cells, curves (traced within a tenth of a pixel), crossings,

@@ -95,15 +95,6 @@ class Tracer {
     return std::move(points_);
   }
 
- private:
-  static double least_tolerance(const Encasement& encasement) {
-    const Box<2> box = encasement.region_used.bounding_box();
-    double size = 0;
-    for (int axis = 0; axis < 2; ++axis)
-      size = std::max({size, std::fabs(box.lo[axis]), std::fabs(box.hi[axis])});
-    return 0x1p-40 * size;
-  }
-
   /// The same point for both cells that share a line crossing.
   Point<2> end(int crossing) {
     const auto [found, is_new] = ends_.try_emplace(crossing);
@@ -112,6 +103,15 @@ class Tracer {
       found->second = root_point(encasement_.lines[c.line], {c.lo, c.hi});
     }
     return found->second;
+  }
+
+ private:
+  static double least_tolerance(const Encasement& encasement) {
+    const Box<2> box = encasement.region_used.bounding_box();
+    double size = 0;
+    for (int axis = 0; axis < 2; ++axis)
+      size = std::max({size, std::fabs(box.lo[axis]), std::fabs(box.hi[axis])});
+    return 0x1p-40 * size;
   }
 
   Point<2> root_point(const Line& line, RootInterval root) {
@@ -196,6 +196,32 @@ class Tracer {
   Polyline points_;
 };
 
+/// The square of the distance of a point from a segment.
+double square_distance(const Point<2>& p, const Point<2>& from, const Point<2>& to) {
+  const Point<2> along = {to[0] - from[0], to[1] - from[1]};
+  const double length = along[0] * along[0] + along[1] * along[1];
+  const double t = ((p[0] - from[0]) * along[0] + (p[1] - from[1]) * along[1]) / length;
+  const double part = length > 0 ? std::clamp(t, 0.0, 1.0) : 0;
+  const double dx = from[0] + part * along[0] - p[0], dy = from[1] + part * along[1] - p[1];
+  return dx * dx + dy * dy;
+}
+
+/// The part of a polyline behind the place nearest to a point, with that point first.
+Polyline part_behind(const Polyline& line, const Point<2>& point) {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+    const double d = square_distance(point, line[k], line[k + 1]);
+    if (d < least) {
+      least = d;
+      nearest = k;
+    }
+  }
+  Polyline part = {point};
+  part.insert(part.end(), line.begin() + static_cast<std::ptrdiff_t>(nearest) + 1, line.end());
+  return part;
+}
+
 /// Joins polylines whose ends are line crossings.
 class Chains {
  public:
@@ -271,6 +297,49 @@ std::vector<Polyline> trace_curve(const Encasement& encasement, int curve, doubl
     for (const Branch& branch : cell.branches)
       if (branch.curve == curve) chains.add(branch.from, branch.to, tracer.branch(cell, branch));
   return chains.join();
+}
+
+std::vector<Polyline> trace_edges(const Encasement& encasement, const Arrangement& arrangement,
+                                  double tolerance) {
+  std::vector<Tracer> tracers;
+  for (std::size_t k = 0; k < encasement.curves.size(); ++k)
+    tracers.emplace_back(encasement, static_cast<int>(k), tolerance);
+  const auto trace_strand = [&](const Arrangement::Strand& strand) {
+    const Cell& cell = encasement.cells[strand.cell];
+    const Branch& branch = cell.branches[strand.branch];
+    Polyline line = tracers[branch.curve].branch(cell, branch);
+    // From the crossing or the beginning to the strand's other end, then in its direction.
+    const int last = strand.from < 0 ? strand.to : strand.from;
+    if (strand.from < 0 || strand.to < 0) {
+      if (branch.to != last) std::reverse(line.begin(), line.end());
+      line = part_behind(line, encasement.crossings[cell.crossing].point);
+      if (strand.to < 0) std::reverse(line.begin(), line.end());
+    } else if (branch.to != strand.to) {
+      std::reverse(line.begin(), line.end());
+    }
+    return line;
+  };
+  const auto point_of = [&](const Arrangement::Vertex& vertex) {
+    if (vertex.kind == Arrangement::Vertex::Kind::Crossing)
+      return encasement.crossings[vertex.index].point;
+    if (vertex.kind == Arrangement::Vertex::Kind::OnBoundary)
+      return tracers[encasement.line_crossings[vertex.index].curve].end(vertex.index);
+    const RationalPoint<2>& corner = encasement.region_used.corners[vertex.index];
+    return Point<2>{corner[0].get_d(), corner[1].get_d()};
+  };
+  std::vector<Polyline> lines;
+  for (std::size_t k = 0; k < arrangement.edges.size(); ++k) {
+    Polyline line;
+    for (const Arrangement::Strand& strand : arrangement.edges[k].strands) {
+      const Polyline part = trace_strand(strand);
+      line.insert(line.end(), part.begin() + (line.empty() ? 0 : 1), part.end());
+    }
+    if (arrangement.edges[k].curve < 0)
+      for (const std::size_t h : {2 * k, 2 * k + 1})
+        line.push_back(point_of(arrangement.vertices[arrangement.half_edges[h].origin]));
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 std::vector<Polyline> sketch_curve(const Encasement& encasement, int cell, int curve,

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "encase/arrangement.hpp"
 #include "encase/encasement.hpp"
 
 /// Polylines along curves, for pictures. A certified cell holds a curve in one branch, an arc that
@@ -25,6 +26,11 @@ Polyline trace_branch(const Encasement& encasement, int cell, const Branch& bran
 /// The branches of a curve, traced and joined across cells: open polylines, and closed ones whose
 /// last point is their first. What runs through cells without certified branches is missing.
 std::vector<Polyline> trace_curve(const Encasement& encasement, int curve, double tolerance);
+
+/// The edges of an arrangement along their first half-edges; loops end where they begin. Edges that
+/// meet in a vertex have the same point there.
+std::vector<Polyline> trace_edges(const Encasement& encasement, const Arrangement& arrangement,
+                                  double tolerance);
 
 /// Short segments near a curve in a cell of any state, from the signs of the curve's polynomial on
 /// a grid of about the given spacing (at most 200 by 200 points): a sketch that may miss what is

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/filtered_polynomial.hpp"
 #include "tests/sample_encasements.hpp"
@@ -138,6 +139,41 @@ TEST(TraceCurve, LeavesOutCellsWithoutBranches) {
   const auto chains = trace_curve(e, 0, 1e-3);
   ASSERT_EQ(chains.size(), 1u);
   EXPECT_NE(chains[0].front(), chains[0].back());
+}
+
+TEST(TraceEdges, JoinsVertices) {
+  const Encasement e = sample::circle_and_line();
+  const Arrangement a = arrange(e).value();
+  const auto lines = trace_edges(e, a, 1e-3);
+  ASSERT_EQ(lines.size(), a.edges.size());
+  std::map<int, Point<2>> at;
+  double circle = 0, line = 0, boundary = 0;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    ASSERT_GE(lines[k].size(), 2u);
+    for (const bool end : {false, true}) {
+      const int v = a.half_edges[2 * k + end].origin;
+      const Point<2> point = end ? lines[k].back() : lines[k].front();
+      EXPECT_EQ(at.try_emplace(v, point).first->second, point);
+      if (a.vertices[v].kind == Arrangement::Vertex::Kind::Crossing) {
+        EXPECT_EQ(point, e.crossings[a.vertices[v].index].point);
+      }
+    }
+    double& sum = a.edges[k].curve < 0 ? boundary : a.edges[k].curve == 0 ? circle : line;
+    for (std::size_t i = 1; i < lines[k].size(); ++i) sum += distance(lines[k][i - 1], lines[k][i]);
+  }
+  EXPECT_NEAR(circle, 2 * 3.14159265 * std::sqrt(0.5), 0.01);
+  EXPECT_NEAR(line, 2 * std::hypot(1, 0.2), 0.01);
+  EXPECT_NEAR(boundary, 8, 1e-9);
+}
+
+TEST(TraceEdges, ClosesLoopsWithoutVertices) {
+  const auto x = Polynomial<2>::variable(0), y = Polynomial<2>::variable(1);
+  const Polynomial<2> circle = x * x + y * y - Polynomial<2>::constant(Rational(1, 2));
+  const Encasement e = encase({{"circle", circle}}, sample::square()).value();
+  const Arrangement a = arrange(e).value();
+  const auto lines = trace_edges(e, a, 1e-3);
+  EXPECT_EQ(lines[0].front(), lines[0].back());
+  EXPECT_GT(lines[0].size(), 20u);
 }
 
 TEST(SketchCurve, StaysInTheCellAndNearTheCurve) {

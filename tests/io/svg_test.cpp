@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -182,6 +183,25 @@ TEST(Svg, StaysInBoundsForRegionsOfAnySizeAndShape) {
         std::distance(std::sregex_iterator(svg.begin(), svg.end(), mark), std::sregex_iterator()),
         4);
   }
+}
+
+TEST(Svg, FillsTheFacesOfTheArrangement) {
+  SvgOptions options = bare();
+  options.faces = true;
+  const std::string svg = to_svg(sample::circle_and_line(), options);
+  EXPECT_EQ(nesting_error(svg), "");
+  EXPECT_EQ(svg.find("id=\"cells\""), std::string::npos);
+  static const std::regex face("<path fill=\"([^\"]*)\" d=\"[^\"]*\"><title>face");
+  std::set<std::string> tints;
+  int faces = 0;
+  for (std::sregex_iterator k(svg.begin(), svg.end(), face), end; k != end; ++k, ++faces)
+    tints.insert((*k)[1]);
+  EXPECT_EQ(faces, 4);
+  EXPECT_EQ(tints.size(), 4u);
+  // Not certified: cells as always.
+  Encasement e = sample::circle_and_line();
+  e.outcome = Outcome::Undecided;
+  EXPECT_NE(to_svg(e, options).find("id=\"cells\""), std::string::npos);
 }
 
 TEST(Svg, MarksRoundCoordinates) {

@@ -59,7 +59,7 @@ class Usage(CommandTest):
     def test_help_of_curves_names_every_option(self):
         run = encase("curves", "--help")
         self.encased(run, 0)
-        for option in ("-e", "--region", "--json", "--svg", "--mesh", "-o", "--history",
+        for option in ("-e", "--region", "--json", "--svg", "--faces", "--mesh", "-o", "--history",
                        "--summary", "--relaxed", "--perturb", "--seed", "--max-cells",
                        "--max-seconds", "--max-bits", "--start-bits", "--threads", "-q", "-v"):
             self.assertIn(option, run.stdout)
@@ -294,7 +294,22 @@ class Files(CommandTest):
         self.assertEqual(summary["status"], "certified")
         self.assertEqual((summary["curves"], summary["crossings"]), (2, 2))
         self.assertEqual(set(summary), {"status", "curves", "crossings", "cells", "relaxed_cells",
-                                        "seconds"})
+                                        "seconds", "vertices", "edges", "faces", "components"})
+        # Two crossings, the cubic's ends and four corners; the circle in two pieces, the cubic in
+        # three, the boundary in six.
+        self.assertEqual([summary[key] for key in ("vertices", "edges", "faces", "components")],
+                         [8, 11, 4, 1])
+
+    def test_faces_in_the_picture(self):
+        circle = ("curves", "-e", "x^2 + y^2 = 1", "--region", "-2 2 -2 2", "-q")
+        run = encase(*circle, "--svg", "-", "--faces")
+        self.encased(run, 0)
+        self.assertEqual(run.stdout.count("<title>face "), 2)
+        self.assertNotIn('id="cells"', run.stdout)
+        run = encase(*circle, "--svg", "-")
+        self.encased(run, 0)
+        self.assertNotIn("<title>face ", run.stdout)
+        self.refused(encase(*circle, "--faces"), 1, "--svg")
 
     def test_region_option_overrides_the_files(self):
         run = encase("curves", self.curves(), "--region", "polygon (0,0) (2,0) (0,2)", "--summary")
