@@ -4,32 +4,16 @@
 #include <CGAL/Algebraic_kernel_d_2.h>
 #include <CGAL/CORE_BigInt.h>
 
-#include <string>
 #include <utility>
 #include <vector>
+
+#include "cgal_polynomial.hpp"
 
 namespace {
 
 using Coefficient = CGAL::CORE_arithmetic_kernel::Integer;
 using Kernel = CGAL::Algebraic_kernel_d_2<Coefficient>;
 using Polynomial = Kernel::Polynomial_2;
-
-/// The polynomial times the least common denominator of its coefficients.
-Polynomial with_integer_coefficients(const encase::Polynomial<2>& f) {
-  encase::Integer denominator = 1;
-  for (const auto& term : f.terms())
-    mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(),
-            term.coefficient.get_den().get_mpz_t());
-  using Traits = CGAL::Polynomial_traits_d<Polynomial>;
-  std::vector<std::pair<CGAL::Exponent_vector, Coefficient>> terms;
-  for (const auto& term : f.terms()) {
-    const encase::Integer c =
-        term.coefficient.get_num() * (denominator / term.coefficient.get_den());
-    terms.emplace_back(CGAL::Exponent_vector(term.exponent[0], term.exponent[1]),
-                       Coefficient(c.get_str()));
-  }
-  return Traits::Construct_polynomial()(terms.begin(), terms.end());
-}
 
 encase::Rational to_rational(const Kernel::Bound& bound) {
   encase::Rational r(bound.get_mp());
@@ -45,8 +29,8 @@ struct CgalRoots::Roots {
 
 CgalRoots::CgalRoots(const encase::Polynomial<2>& f, const encase::Polynomial<2>& g)
     : roots_(std::make_unique<Roots>()) {
-  roots_->kernel.solve_2_object()(with_integer_coefficients(f), with_integer_coefficients(g),
-                                  std::back_inserter(roots_->list));
+  const auto integral = &with_integer_coefficients<Polynomial, Coefficient>;
+  roots_->kernel.solve_2_object()(integral(f), integral(g), std::back_inserter(roots_->list));
 }
 
 CgalRoots::~CgalRoots() = default;
