@@ -71,7 +71,8 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
   c->footer(
       "FILE has lines `name: expression` or `expression`, with ^ for powers and exact decimals or\n"
       "fractions, and `region: xmin xmax ymin ymax`, `region: polygon (x,y) (x,y) ...` or\n"
-      "`region: plane`; # starts a comment. With - for FILE of --json or --svg it goes to standard\n"
+      "`region: plane`; # starts a comment. With - for FILE of --json or --svg it goes to "
+      "standard\n"
       "output and the report to standard error.\n\n" +
       std::string(kExitCodes));
 }

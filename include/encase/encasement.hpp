@@ -175,7 +175,6 @@ struct InfinityPiece {
   int curve = -1;
 };
 
-
 struct Statistics {
   DecisionCounts decisions;
   std::int64_t root_boxes = 0;      ///< boxes visited for crossings

@@ -8,8 +8,8 @@
 
 namespace encase {
 
-/// A closed convex polygon with exact corners in counter-clockwise order, no three on a line; or the
-/// whole plane.
+/// A closed convex polygon with exact corners in counter-clockwise order, no three on a line; or
+/// the whole plane.
 struct Region {
   std::vector<RationalPoint<2>> corners;
   bool plane = false;  ///< without corners
