@@ -172,6 +172,20 @@ TEST(SharedCover, ManyCurvesThroughOnePoint) {
   EXPECT_EQ(e.statistics.pairs_met, 66);
 }
 
+TEST(SharedCover, ComponentsOfManyCurvesAreTakenApart) {
+  auto curves = curves_of(random_circles(30, 50, 150, 4));
+  EXPECT_EQ(encased::run_curves(curves).outcome, Outcome::Certified);
+  const auto line = Polynomial<2>::variable(0) - Polynomial<2>::constant(Rational(1, 7));
+  curves.push_back({"more", curves[3].polynomial * line * line});
+  const Encasement e = encased::run_curves(curves);
+  EXPECT_EQ(e.curves.size(), 31u);
+  ASSERT_EQ(e.degenerate.size(), 2u);
+  EXPECT_EQ(e.degenerate[0].kind, Unresolved::Kind::SharedComponent);
+  EXPECT_EQ(e.degenerate[0].curves, (std::vector<int>{3, 30}));
+  EXPECT_EQ(e.degenerate[1].kind, Unresolved::Kind::RepeatedComponent);
+  EXPECT_EQ(e.degenerate[1].curves, std::vector<int>{30});
+}
+
 TEST(SharedCover, HoldsWhereABudgetRanOut) {
   const auto curves = curves_of(random_circles(30, 100, 300, 2));
   for (int calls = 0; calls < 8; ++calls) {
