@@ -119,7 +119,7 @@ void SharedSubdivision::visit(const Box<2>& box, int level, int in_vain, bool in
   alive.resize(left);
   Box<2> lower, upper;
   const int axis = cover::kSplitX - wider_axis(box);
-  if (stopped_ || alive.size() <= kFew || in_vain > kInVain || level == kDeepest ||
+  if (stopped_ || alive.size() <= kFew || in_vain >= kInVain || level == kDeepest ||
       result_.visited >= kMostBoxes || !halve_box(box, axis, &lower, &upper)) {
     cover.tokens.push_back(static_cast<int>(cover.alive.size()));
     auto& names = cover.alive.emplace_back();

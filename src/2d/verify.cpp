@@ -256,7 +256,8 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options) 
   check_curves(claims);
   if (!check_regions(claims) || claims.full()) return claims.report;
 
-  // The partition with all zeros on its lines; then what lies inside.
+  // Where curves can be at all; the partition with all zeros on its lines; then what lies inside.
+  check_shared_cover(claims);
   const Partition partition = replay_history(claims);
   if (partition.complete) {
     check_cell_boundaries(claims, partition);
@@ -265,7 +266,6 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options) 
   }
 
   // No crossing and no loop is missing from the lists.
-  check_shared_cover(claims);
   check_crossing_covers(claims);
   check_critical_regions(claims);
   check_critical_covers(claims);

@@ -141,20 +141,28 @@ bool connected(std::vector<Box<2>> boxes) {
   return components == 1;
 }
 
-/// For every token of a subdivision how many of the leaves below have a token k >= 0.
-std::vector<int> named_leaves_below(const std::vector<int>& tokens) {
-  std::vector<int> count(tokens.size()), stack;
+bool splits(int token) { return token == cover::kSplitX || token == cover::kSplitY; }
+
+/// For every split token of a subdivision the token at which its upper half begins.
+std::vector<std::size_t> upper_halves(const std::vector<int>& tokens) {
+  std::vector<std::size_t> upper(tokens.size()), stack;  // where subtrees begin, the next on top
   for (std::size_t i = tokens.size(); i-- > 0;) {
-    if (tokens[i] == cover::kSplitX || tokens[i] == cover::kSplitY) {
-      const int lower = stack.back();
+    if (splits(tokens[i])) {
       stack.pop_back();
-      count[i] = lower + stack.back();
+      upper[i] = stack.back();
       stack.pop_back();
-    } else {
-      count[i] = tokens[i] >= 0;
     }
-    stack.push_back(count[i]);
+    stack.push_back(i);
   }
+  return upper;
+}
+
+/// For every token of a subdivision how many of the leaves below have a token k >= 0.
+std::vector<int> named_leaves_below(const std::vector<int>& tokens,
+                                    const std::vector<std::size_t>& upper_half) {
+  std::vector<int> count(tokens.size());
+  for (std::size_t i = tokens.size(); i-- > 0;)
+    count[i] = splits(tokens[i]) ? count[i + 1] + count[upper_half[i]] : tokens[i] >= 0;
   return count;
 }
 
@@ -162,7 +170,7 @@ std::vector<int> named_leaves_below(const std::vector<int>& tokens) {
 /// the subdivision that have no other leaves, or else on smaller ones.
 void check_absent_curves(Claims& claims) {
   const SharedCover& cover = claims.result.shared_cover;
-  const std::vector<int> below = named_leaves_below(cover.tokens);
+  const std::vector<int> below = named_leaves_below(cover.tokens, claims.upper_half);
   std::vector<std::vector<int>> leaves_of(claims.curves.size());
   for (std::size_t k = 0; k < cover.alive.size(); ++k)
     for (int c : cover.alive[k])
@@ -190,7 +198,7 @@ void check_absent_curves(Claims& claims) {
         const auto next = std::lower_bound(leaves.begin(), leaves.end(), leaf);
         return (next == leaves.end() || *next >= leaf + below[i]) && keeps_sign(c, here.box);
       });
-    if (token == cover::kSplitX || token == cover::kSplitY) {
+    if (splits(token)) {
       Open lower, upper;
       halves(here.box, token == cover::kSplitX ? 0 : 1, &lower.box, &upper.box);
       lower.curves = here.curves;
@@ -243,7 +251,45 @@ void check_shared_cover(Claims& claims) {
     claims.shared_leaves.push_back(leaf);
     return static_cast<const char*>(nullptr);
   });
-  if (whole) check_absent_curves(claims);
+  if (!whole) return;
+  claims.upper_half = upper_halves(cover.tokens);
+  check_absent_curves(claims);
+}
+
+std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box) {
+  const SharedCover& cover = claims.result.shared_cover;
+  std::vector<int> curves;
+  if (claims.upper_half.empty()) {
+    for (std::size_t c = 0; c < claims.curves.size(); ++c) curves.push_back(static_cast<int>(c));
+    return curves;
+  }
+  struct Item {
+    std::size_t token;
+    Box<2> box;
+  };
+  std::vector<Item> stack{{0, cover.root}};
+  while (!stack.empty()) {
+    const Item item = stack.back();
+    stack.pop_back();
+    // (Bounds of `box` that are no numbers exclude nothing.)
+    bool apart = side(line, item.box, claims.kernel).has_value();
+    for (std::size_t i = 0; i < 2; ++i)
+      apart = apart || box.hi[i] < item.box.lo[i] || item.box.hi[i] < box.lo[i];
+    if (apart) continue;
+    const int token = cover.tokens[item.token];
+    if (splits(token)) {
+      Box<2> lower, upper;
+      halves(item.box, token == cover::kSplitX ? 0 : 1, &lower, &upper);
+      stack.push_back({claims.upper_half[item.token], upper});
+      stack.push_back({item.token + 1, lower});
+    } else if (token >= 0) {
+      const std::vector<int>& alive = cover.alive[static_cast<std::size_t>(token)];
+      curves.insert(curves.end(), alive.begin(), alive.end());
+    }
+  }
+  std::sort(curves.begin(), curves.end());
+  curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+  return curves;
 }
 
 void check_crossing_covers(Claims& claims) {
