@@ -721,12 +721,22 @@ TEST(Verify, ObjectsToCoversThatLeaveOutLeaves) {
       "Some pair of curves has no crossing cover");
 }
 
+TEST(Verify, ObjectsToMissingLineCrossingsBesideASharedCover) {
+  // Only curves that the shared cover leaves near are looked for on a line: all that are there.
+  const Encasement e = four_curves();
+  for (std::size_t k = 0; k < e.line_crossings.size(); ++k)
+    expect_objection(
+        e, [&](auto& m) { m.line_crossings[k].line = (m.line_crossings[k].line + 1) % 4; },
+        "is not proved absent");
+}
+
 TEST(Verify, ObjectsToRandomMutationsOfASharedCover) {
   const Encasement e = four_curves();
   mutations::Mutator mutator(3);
-  for (int round = 0; round < 500; ++round) {
+  for (int round = 0; round < 1000; ++round) {
     Encasement mutant = e;
-    const mutations::Mutation mutation = mutator.change_shared_cover(mutant);
+    const mutations::Mutation mutation =
+        round % 2 == 0 ? mutator.change_shared_cover(mutant) : mutator.apply(mutant);
     const Verification verification = verify(mutant);
     EXPECT_TRUE(mutation.may_hold || !verification.ok()) << mutation.what;
   }
