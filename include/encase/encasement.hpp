@@ -68,7 +68,8 @@ struct LineCrossing {
 
 /// Proof of where curves can meet, for more than two: the box `root` (which contains the region
 /// used) is subdivided; leaf token k >= 0 names entry k of `alive`, and every curve that is not in
-/// that list has no zero in the leaf. The leaves are numbered in their order.
+/// that list has no zero in the leaf. These leaves are numbered in their order; the others are
+/// kOutside, or kUnresolved in a box of `undecided` that concerns all curves.
 struct SharedCover {
   Box<2> root;
   std::vector<int> tokens;

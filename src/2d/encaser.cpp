@@ -264,6 +264,13 @@ void Encaser::isolate_crossings() {
     SharedLeaves shared = share_leaves(tiled_, sides_, stop("telling which curves meet"), kernel_);
     result_.statistics.root_boxes += shared.visited;
     const Box<2> whole = tiled_[0].box();
+    for (const Box<2>& box : shared.unresolved) {
+      Unresolved entry;
+      entry.box = box;
+      entry.has_box = true;
+      entry.reason = budget_ + " before it was told which curves meet";
+      result_.undecided.push_back(std::move(entry));
+    }
     curve_roots_ = hulls_of_curves(shared, n);
     for (Box<2>& box : curve_roots_)
       if (box.width(0) > 0) box = root_around(box, whole);

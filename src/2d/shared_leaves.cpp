@@ -94,7 +94,12 @@ bool SharedSubdivision::provide_patch(const Box<2>& box, int level, Alive* alive
 void SharedSubdivision::visit(const Box<2>& box, int level, int in_vain, bool inside,
                               std::vector<Alive>& alive) {
   SharedCover& cover = result_.cover;
-  if (++result_.visited % 64 == 0 && !stopped_) stopped_ = stop_ && stop_();
+  if (result_.visited++ % 64 == 0 && !stopped_) stopped_ = stop_ && stop_();
+  if (stopped_) {
+    cover.tokens.push_back(cover::kUnresolved);
+    result_.unresolved.push_back(box);
+    return;
+  }
   if (!inside) {
     const std::optional<bool> where = in_half_planes(box);
     if (where == false) {
@@ -106,8 +111,8 @@ void SharedSubdivision::visit(const Box<2>& box, int level, int in_vain, bool in
   std::size_t left = 0;
   bool sharp = true;
   for (std::size_t k = 0; k < alive.size(); ++k) {
-    const bool tells = !stopped_ && provide_patch(box, level, &alive[k]);
-    if (!stopped_ && alive[k].expanded_at >= 0 && alive[k].patch.sign()) {
+    const bool tells = provide_patch(box, level, &alive[k]);
+    if (alive[k].expanded_at >= 0 && alive[k].patch.sign()) {
       kernel_.count(Kernel::kDoubleBits);
       continue;
     }
@@ -119,7 +124,7 @@ void SharedSubdivision::visit(const Box<2>& box, int level, int in_vain, bool in
   alive.resize(left);
   Box<2> lower, upper;
   const int axis = cover::kSplitX - wider_axis(box);
-  if (stopped_ || alive.size() <= kFew || in_vain >= kInVain || level == kDeepest ||
+  if (alive.size() <= kFew || in_vain >= kInVain || level == kDeepest ||
       result_.visited >= kMostBoxes || !halve_box(box, axis, &lower, &upper)) {
     cover.tokens.push_back(static_cast<int>(cover.alive.size()));
     auto& names = cover.alive.emplace_back();

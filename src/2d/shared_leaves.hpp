@@ -14,14 +14,15 @@ namespace encase {
 /// One subdivision of a box for many curves.
 struct SharedLeaves {
   SharedCover cover;
-  std::vector<Box<2>> boxes;  ///< of the leaves, as in cover.alive
-  int visited = 0;            ///< boxes, leaves included
+  std::vector<Box<2>> boxes;       ///< of the leaves, as in cover.alive
+  std::vector<Box<2>> unresolved;  ///< the leaves that were open when it was stopped
+  int visited = 0;                 ///< boxes, leaves included
 };
 
 /// Subdivides the box that the curves' tiles cover, common to all, until few curves are left in a
 /// leaf or halving takes none away. A curve is dropped where it is proved to have no zero; boxes
 /// outside one of the half planes (positive side) are left out. `stop`, asked now and then, ends
-/// it: what is open then becomes leaves. Cost: linear in the curves alive in the boxes visited.
+/// it: what is open then stays unresolved. Cost: linear in the curves alive in the boxes visited.
 SharedLeaves share_leaves(std::vector<TiledPolynomial>& curves,
                           const std::vector<Line>& half_planes, const std::function<bool()>& stop,
                           Kernel& kernel);

@@ -158,7 +158,9 @@ void check_shared_structure(Claims& claims) {
   bool tokens = true;
   std::size_t next = 0;
   for (int token : cover.tokens) {
-    if (token == cover::kSplitX || token == cover::kSplitY || token == cover::kOutside) continue;
+    if (token == cover::kSplitX || token == cover::kSplitY || token == cover::kOutside ||
+        token == cover::kUnresolved)
+      continue;
     tokens = tokens && token >= 0 && static_cast<std::size_t>(token) == next++;
   }
   claims.require(has_interior(cover.root) && tokens && next == cover.alive.size(),

@@ -247,10 +247,16 @@ void check_shared_cover(Claims& claims) {
   const std::string name = "The shared cover";
   claims.require(contains_region(cover.root, claims.result.region_used), name,
                  " does not cover the region used.");
-  const bool whole = replay(claims, name, cover.root, cover.tokens, [&](int, const Box<2>& leaf) {
+  std::vector<int> all(claims.curves.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto check = [&](int token, const Box<2>& leaf) -> const char* {
+    if (token == cover::kUnresolved)
+      return unresolved(claims.result, leaf, all) ? nullptr
+                                                  : "is in no unresolved box of all curves";
     claims.shared_leaves.push_back(leaf);
-    return static_cast<const char*>(nullptr);
-  });
+    return nullptr;
+  };
+  const bool whole = replay(claims, name, cover.root, cover.tokens, check);
   if (!whole) return;
   claims.upper_half = upper_halves(cover.tokens);
   check_absent_curves(claims);
@@ -258,11 +264,9 @@ void check_shared_cover(Claims& claims) {
 
 std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box) {
   const SharedCover& cover = claims.result.shared_cover;
-  std::vector<int> curves;
-  if (claims.upper_half.empty()) {
-    for (std::size_t c = 0; c < claims.curves.size(); ++c) curves.push_back(static_cast<int>(c));
-    return curves;
-  }
+  std::vector<int> all(claims.curves.size()), curves;
+  std::iota(all.begin(), all.end(), 0);
+  if (claims.upper_half.empty()) return all;
   struct Item {
     std::size_t token;
     Box<2> box;
@@ -285,6 +289,8 @@ std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box
     } else if (token >= 0) {
       const std::vector<int>& alive = cover.alive[static_cast<std::size_t>(token)];
       curves.insert(curves.end(), alive.begin(), alive.end());
+    } else if (token == cover::kUnresolved) {
+      return all;
     }
   }
   std::sort(curves.begin(), curves.end());

@@ -194,6 +194,12 @@ TEST(SharedCover, HoldsWhereABudgetRanOut) {
     options.progress = [&](const char*, double) { return left-- > 0; };
     const Encasement e = encased::run_curves(curves, encased::square(), options);
     EXPECT_EQ(e.outcome, Outcome::Undecided);
+    if (calls > 0) continue;
+    // Stopped at once: nothing is known of any pair, and no pair is looked at.
+    EXPECT_EQ(e.shared_cover.tokens, std::vector<int>{cover::kUnresolved});
+    EXPECT_TRUE(e.crossing_covers.empty());
+    ASSERT_FALSE(e.undecided.empty());
+    EXPECT_EQ(e.undecided[0].box, e.shared_cover.root);
   }
 }
 

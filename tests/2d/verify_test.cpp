@@ -627,6 +627,13 @@ TEST(Verify, ObjectsToAWrongSharedCover) {
       e, [](auto& m) { m.shared_cover.alive[0] = {4}; }, "ascending indices");
   expect_objection(
       e, [](auto& m) { m.shared_cover.alive[0] = {-1}; }, "ascending indices");
+  expect_objection(
+      e,
+      [](auto& m) {
+        m.shared_cover.tokens.back() = cover::kUnresolved;
+        m.shared_cover.alive.pop_back();
+      },
+      "is in no unresolved box of all curves");
   for (const int bad : {cover::kExcluded, cover::kUnresolved, cover::kSplitZ, 0, 1000000})
     for (std::size_t t = 1; t < e.shared_cover.tokens.size(); ++t) {
       if (e.shared_cover.tokens[t] == bad) continue;
