@@ -10,7 +10,6 @@
 
 #include "common/patch.hpp"
 #include "common/plane_subdivision.hpp"
-#include "common/segments.hpp"
 
 namespace encase {
 namespace {
@@ -51,8 +50,6 @@ class SharedSubdivision {
 
  private:
   void visit(const Box<2>& box, int level, int in_vain, bool inside, std::vector<Alive>& alive);
-  /// Nothing if the box may meet the boundary of a half plane, else whether it lies in all.
-  std::optional<bool> in_half_planes(const Box<2>& box);
   bool provide_patch(const Box<2>& box, int level, Alive* alive);
 
   std::vector<TiledPolynomial>& curves_;
@@ -64,17 +61,6 @@ class SharedSubdivision {
   /// The curves of the lower halves, by level. (Those of an upper half take their parent's place.)
   std::vector<std::vector<Alive>> lower_;
 };
-
-std::optional<bool> SharedSubdivision::in_half_planes(const Box<2>& box) {
-  bool inside = true;
-  for (const Line& line : half_planes_) {
-    const std::optional<Sign> where = side(line, box, kernel_);
-    if (where == Sign::Positive) return false;
-    inside = inside && where == Sign::Negative;
-  }
-  if (inside) return true;
-  return std::nullopt;
-}
 
 /// Makes the patch where it is missing or has become coarse. False if there is none, or none that
 /// tells much: then a smaller box may.
@@ -101,7 +87,7 @@ void SharedSubdivision::visit(const Box<2>& box, int level, int in_vain, bool in
     return;
   }
   if (!inside) {
-    const std::optional<bool> where = in_half_planes(box);
+    const std::optional<bool> where = lies_inside(box, half_planes_);
     if (where == false) {
       cover.tokens.push_back(cover::kOutside);
       return;
