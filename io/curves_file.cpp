@@ -195,10 +195,10 @@ class TextReader {
   }
 
   bool read_curve(const std::string& name, const Piece& where, const Piece& expression) {
-    const auto [previous, is_new] = line_of_.emplace(name, line_number(where.offset));
+    const auto [previous, is_new] = offset_of_.emplace(name, where.offset);
     if (!is_new)
       return fail(where.offset, "there is already a curve " + in_quotes(name) + ", in line " +
-                                    std::to_string(previous->second));
+                                    std::to_string(line_number(previous->second)));
     auto f = parse_expression<2>(expression.text);
     if (const auto* e = std::get_if<SyntaxError>(&f))
       return fail(expression.offset + e->offset, e->message);
@@ -216,7 +216,7 @@ class TextReader {
 
   std::string_view text_;
   CurvesFile file_;
-  std::map<std::string, std::size_t> line_of_;
+  std::map<std::string, std::size_t> offset_of_;  // of the curves' names
   std::optional<SyntaxError> error_;
 };
 

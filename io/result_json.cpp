@@ -243,7 +243,15 @@ void put_unresolved(Writer& w, const std::vector<Unresolved>& places) {
 }
 
 void put_covers(Writer& w, const Encasement& e) {
-  w.raw("{\"crossings\":");
+  w.raw("{");
+  if (!e.shared_cover.tokens.empty()) {
+    w.raw("\"shared\":{");
+    w.field("root", e.shared_cover.root);
+    w.field("tokens", e.shared_cover.tokens);
+    w.key("alive"), w.list(e.shared_cover.alive);
+    w.raw("},\n");
+  }
+  w.raw("\"crossings\":");
   w.lines(e.crossing_covers, [&](const CrossingCover& cover) {
     w.raw("{");
     w.field("curves", cover.curves);
@@ -262,13 +270,19 @@ void put_covers(Writer& w, const Encasement& e) {
   w.raw("}");
 }
 
-void put_statistics(Writer& w, const Statistics& s) {
+/// The counts of pairs as well unless there is one pair at most: then they follow from its cover.
+void put_statistics(Writer& w, const Statistics& s, bool with_pairs) {
   w.raw("{\"decisions\":{");
   w.field("by_double", s.decisions.by_double);
   w.field("by_mpfr", s.decisions.by_mpfr);
   w.field("by_exact", s.decisions.by_exact);
   w.field("undecided", s.decisions.undecided);
   w.raw("}");
+  if (with_pairs) {
+    w.field("pairs_met", s.pairs_met);
+    w.field("pairs_isolated", s.pairs_isolated);
+    w.field("filter_failures", s.filter_failures);
+  }
   w.field("root_boxes", s.root_boxes);
   w.field("critical_boxes", s.critical_boxes);
   w.field("restrictions", s.restrictions);
@@ -306,6 +320,7 @@ class Node {
     if (found == json_->end()) fail("'" + std::string(key) + "' is missing");
     return Node(*found, this, key, 0);
   }
+  bool has(const char* key) const { return json_->is_object() && json_->contains(key); }
   int size() const {
     if (!json_->is_array()) fail("expected a list");
     if (json_->size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -489,6 +504,14 @@ std::vector<int> read_tokens(const Node& node, std::size_t items) {
   });
 }
 
+SharedCover read_shared_cover(const Node& node, std::size_t curves) {
+  SharedCover cover;
+  cover.root = node.member("root").box();
+  cover.alive = node.member("alive").map([&](const Node& list) { return list.indices(curves); });
+  cover.tokens = read_tokens(node.member("tokens"), cover.alive.size());
+  return cover;
+}
+
 LineCrossing read_line_crossing(const Node& node, std::size_t lines, std::size_t curves) {
   LineCrossing crossing;
   crossing.line = node.member("line").index(lines);
@@ -604,6 +627,11 @@ Statistics read_statistics(const Node& node) {
   s.decisions.by_mpfr = decisions.member("by_mpfr").count();
   s.decisions.by_exact = decisions.member("by_exact").count();
   s.decisions.undecided = decisions.member("undecided").count();
+  if (node.has("pairs_met")) {
+    s.pairs_met = node.member("pairs_met").count();
+    s.pairs_isolated = node.member("pairs_isolated").count();
+    s.filter_failures = node.member("filter_failures").count();
+  }
   s.root_boxes = node.member("root_boxes").count();
   s.critical_boxes = node.member("critical_boxes").count();
   s.restrictions = node.member("restrictions").count();
@@ -659,6 +687,8 @@ Encasement read_encasement(const Node& root) {
       [&](const Node& cell) { return read_cell(cell, e, e.crossings.size()); });
   e.history = read_history(root.member("history"), e.lines.size(), cells);
   const Node covers = root.member("covers");
+  if (covers.has("shared"))
+    e.shared_cover = read_shared_cover(covers.member("shared"), e.curves.size());
   e.crossing_covers = covers.member("crossings").map([&](const Node& item) {
     return CrossingCover{read_pair(item.member("curves"), e.curves.size()),
                          item.member("root").box(),
@@ -760,7 +790,7 @@ std::string to_json(const Encasement& e) {
   });
   top("degenerate"), put_unresolved(w, e.degenerate);
   top("undecided"), put_unresolved(w, e.undecided);
-  top("statistics"), put_statistics(w, e.statistics);
+  top("statistics"), put_statistics(w, e.statistics, !e.shared_cover.tokens.empty());
   w.raw("\n}\n");
   return w.take();
 }
@@ -790,6 +820,9 @@ std::string summary_json(const Encasement& e) {
   w.field("crossings", static_cast<std::int64_t>(counted));
   w.field("cells", static_cast<int>(e.cells.size()));
   w.field("relaxed_cells", static_cast<std::int64_t>(relaxed));
+  w.field("pairs_met", e.statistics.pairs_met);
+  w.field("pairs_isolated", e.statistics.pairs_isolated);
+  w.field("filter_failures", e.statistics.filter_failures);
   w.field("seconds", e.seconds);
   w.raw("}");
   return w.take();

@@ -40,6 +40,42 @@ class Mutator {
       if (const auto mutation = (this->*kKinds[below(std::size(kKinds))])(e)) return *mutation;
   }
 
+  /// Changes one fact of the shared cover, of at least two leaves.
+  Mutation change_shared_cover(Encasement& e) {
+    SharedCover& cover = e.shared_cover;
+    const std::size_t k = below(cover.alive.size());
+    std::vector<int>& alive = cover.alive[k];
+    const std::string where = name("leaf", cover.alive, alive);
+    switch (below(6)) {
+      case 0: {
+        int& token = any(cover.tokens);
+        const int before = token;
+        token = other(token + 6, cover.alive.size() + 6) - 6;
+        // A box halved the other way may have the same curves in its halves.
+        const bool split = before >= cover::kSplitY && before < 0;
+        return {"shared token " + std::to_string(before) + " to " + std::to_string(token),
+                split && token >= cover::kSplitY && token < 0};
+      }
+      case 1:
+        cover.root.hi[below(2)] -= 0.5 * cover.root.largest_width();
+        return {"the shared cover's root made smaller"};
+      case 2:
+        cover.alive.pop_back();
+        return {"the last list of curves dropped"};
+      case 3:
+        alive.push_back(static_cast<int>(e.curves.size()));
+        return {where + ": a curve that is not there"};
+      case 4:
+        std::swap(alive, cover.alive[(k + 1) % cover.alive.size()]);
+        return {where + ": curves exchanged with the next", true};
+      default:
+        // It may have no zero there that the search could tell.
+        if (!alive.empty())
+          alive.erase(alive.begin() + static_cast<std::ptrdiff_t>(below(alive.size())));
+        return {where + ": a curve less", true};
+    }
+  }
+
   /// Overwrites numbers and indices anywhere with the most awkward values.
   void corrupt(Encasement& e, int count) {
     for (int k = 0; k < count; ++k) {

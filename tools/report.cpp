@@ -172,7 +172,7 @@ std::string statistics_report(const Encasement& encasement) {
   return fmt::format(
       "\n"
       "1. sanity            curves read {}, to encase {}\n"
-      "2. crossings         found {}, boxes visited {}\n"
+      "2. crossings         found {}, boxes visited {}; pairs met {}, isolated {}, in vain {}\n"
       "3. critical regions  found {}, boxes visited {}\n"
       "4. split             candidate lines {}, splits {} ({} for loops), depth {}\n"
       "5. certify           cells {}, crossings on lines {}, rays {}\n"
@@ -180,10 +180,11 @@ std::string statistics_report(const Encasement& encasement) {
       "expansions           {} ({} in MPFR), restrictions {}\n"
       "CPU time             {:.3g} s\n",
       encasement.input.size(), encasement.curves.size(), encasement.crossings.size(), s.root_boxes,
-      encasement.critical_regions.size(), s.critical_boxes, s.candidate_lines, s.splits,
-      s.loop_splits, depth, encasement.cells.size(), encasement.line_crossings.size(), rays,
-      s.decisions.by_double, s.decisions.by_mpfr, s.decisions.by_exact, s.decisions.undecided,
-      s.expansions, s.mpfr_expansions, s.restrictions, encasement.seconds);
+      s.pairs_met, s.pairs_isolated, s.filter_failures, encasement.critical_regions.size(),
+      s.critical_boxes, s.candidate_lines, s.splits, s.loop_splits, depth, encasement.cells.size(),
+      encasement.line_crossings.size(), rays, s.decisions.by_double, s.decisions.by_mpfr,
+      s.decisions.by_exact, s.decisions.undecided, s.expansions, s.mpfr_expansions, s.restrictions,
+      encasement.seconds);
 }
 
 }  // namespace encase

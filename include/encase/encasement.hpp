@@ -66,8 +66,19 @@ struct LineCrossing {
   double hi = 0;
 };
 
+/// Proof of where curves can meet, for more than two: the box `root` (which contains the region
+/// used) is subdivided; leaf token k >= 0 names entry k of `alive`, and every curve that is not in
+/// that list has no zero in the leaf. These leaves are numbered in their order; the others are
+/// kOutside, or kUnresolved in a box of `undecided` that concerns all curves.
+struct SharedCover {
+  Box<2> root;
+  std::vector<int> tokens;
+  std::vector<std::vector<int>> alive;  ///< ascending
+};
+
 /// Proof that the list of crossings of a pair is complete: the box `root` (which contains the
-/// region used) is subdivided, and in every leaf
+/// region used, or all leaves of the shared cover in which both are alive) is subdivided, and in
+/// every leaf
 ///   - kExcluded: the two curves have no common point;
 ///   - k >= 0: a box that contains the leaf and crossing k's box holds at most one common point.
 struct CrossingCover {
@@ -85,7 +96,9 @@ struct CriticalRegion {
   std::vector<Box<2>> boxes;
 };
 
-/// Proof that a curve's critical regions are complete and that it is smooth. In every leaf
+/// Proof that a curve's critical regions are complete and that it is smooth. The box `root`
+/// contains the region used, or all leaves of the shared cover in which the curve is alive. In
+/// every leaf
 ///   - kExcluded: f has no critical point, or f is not zero and no point is a local maximum of |f|
 ///     (proved by f f_xx > 0, f f_yy > 0 or det Hess f < 0);
 ///   - k >= 0: the leaf is a box of `critical_regions[k]`, on which f is not zero.
@@ -177,10 +190,13 @@ struct InfinityPiece {
 
 struct Statistics {
   DecisionCounts decisions;
-  std::int64_t root_boxes = 0;      ///< boxes visited for crossings
-  std::int64_t critical_boxes = 0;  ///< boxes visited for critical regions
-  std::int64_t restrictions = 0;    ///< curves restricted to segments
-  std::int64_t expansions = 0;      ///< local expansions from the exact coefficients
+  std::int64_t pairs_met = 0;        ///< pairs of curves that no leaf of a shared cover separates
+  std::int64_t pairs_isolated = 0;   ///< pairs whose common zeros were isolated
+  std::int64_t filter_failures = 0;  ///< among them those without a common zero in the region
+  std::int64_t root_boxes = 0;       ///< boxes visited for crossings
+  std::int64_t critical_boxes = 0;   ///< boxes visited for critical regions
+  std::int64_t restrictions = 0;     ///< curves restricted to segments
+  std::int64_t expansions = 0;       ///< local expansions from the exact coefficients
   std::int64_t mpfr_expansions = 0;
   std::int64_t candidate_lines = 0;
   std::int64_t splits = 0;
@@ -201,8 +217,11 @@ struct Encasement {
   std::vector<Crossing> crossings;
   std::vector<Cell> cells;
   std::vector<Split> history;
-  std::vector<CrossingCover> crossing_covers;  ///< one a pair of curves
-  std::vector<CriticalCover> critical_covers;  ///< one a curve
+  SharedCover shared_cover;  ///< without tokens for at most two curves
+  /// One a pair of curves; with a shared cover, one a pair that is alive in a common leaf.
+  std::vector<CrossingCover> crossing_covers;
+  /// One a curve; with a shared cover, one a curve that is alive in a leaf.
+  std::vector<CriticalCover> critical_covers;
   std::vector<CriticalRegion> critical_regions;
   /// If `region` is the plane: what is proved outside of `region_used`, a rectangle around the
   /// origin; empty where something is reported there.

@@ -19,7 +19,8 @@ std::string to_json(const Encasement& encasement);
 Result<Encasement> encasement_from_json(const std::string& text, const std::string& file_name);
 
 /// One JSON object on one line: status, curves (encased), crossings (not counting those outside the
-/// region asked for), cells, relaxed_cells, seconds (CPU).
+/// region asked for), cells, relaxed_cells, pairs_met, pairs_isolated, filter_failures, seconds
+/// (CPU).
 std::string summary_json(const Encasement& encasement);
 
 }  // namespace encase

@@ -9,6 +9,7 @@
 #include "2d/infinity.hpp"
 #include "2d/locate.hpp"
 #include "2d/saddles.hpp"
+#include "2d/shared_leaves.hpp"
 #include "common/components.hpp"
 #include "common/isolate_roots.hpp"
 #include "common/perturb.hpp"
@@ -56,13 +57,19 @@ void Encaser::progress(const char* stage, double done) {
     budget_ = "the computation was cancelled";
 }
 
-SubdivisionLimits Encaser::limits(const char* stage, Unresolved::Kind kind) {
-  SubdivisionLimits limits;
-  limits.smallest = smallest_part(kind);
-  limits.stop = [this, stage] {
+std::function<bool()> Encaser::stop(const char* stage) {
+  return [this, stage] {
     progress(stage, -1);
     return out_of_budget();
   };
+}
+
+SubdivisionLimits Encaser::limits(const char* stage, Unresolved::Kind kind, const Box<2>& root) {
+  SubdivisionLimits limits;
+  // A root may be smaller than the whole; the smallest boxes are not.
+  const double whole = tiled_.front().box().largest_width();
+  limits.smallest = smallest_part(kind) * (whole / root.largest_width());
+  limits.stop = stop(stage);
   return limits;
 }
 
@@ -248,12 +255,11 @@ std::vector<Box<2>> Encaser::clusters_of(const std::vector<Box<2>>& unresolved) 
 }
 
 void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
-                     Unresolved::Kind kind, std::vector<int> curves) {
+                     Unresolved::Kind kind, double smallest, std::vector<int> curves) {
   if (unresolved.empty()) return;
   std::string names;
   for (const int c : curves)
     names += (names.empty() ? "'" : " and '") + result_.curves[c].name + "'";
-  const double smallest = smallest_part(kind);
   for (const Box<2>& box : clusters_of(unresolved)) {
     Unresolved entry;
     entry.box = box;
@@ -289,27 +295,61 @@ void Encaser::isolate_crossings() {
                            result_.degenerate.end());
   result_.undecided.clear();
   const int n = static_cast<int>(polynomials_.size());
-  for (int i = 0; i < n; ++i)
-    for (int j = i + 1; j < n; ++j) {
-      RootIsolation<2> roots =
-          isolate_roots(tiled_[i], tiled_[j], sides_,
-                        limits("isolating crossings", Unresolved::Kind::Contact), kernel_);
-      result_.statistics.root_boxes += roots.boxes;
-      const int first = static_cast<int>(partition_->crossings.size());
-      for (std::size_t k = 0; k < roots.roots.size(); ++k) {
-        Crossing crossing;
-        crossing.curves = {i, j};
-        crossing.box = roots.roots[k];
-        crossing.point = crossing.box.center();
-        crossing.rounded = roots.rounded[k];
-        partition_->crossings.push_back(crossing);
-      }
-      for (int& token : roots.tokens)
-        if (token >= 0) token += first;
-      report(roots.unresolved, roots.root_box, Unresolved::Kind::Contact, {i, j});
-      result_.crossing_covers.push_back({{i, j}, roots.root_box, std::move(roots.tokens)});
+  result_.shared_cover = {};
+  curve_roots_.clear();
+  if (n > 2) {
+    SharedLeaves shared = share_leaves(tiled_, sides_, stop("telling which curves meet"), kernel_);
+    result_.statistics.root_boxes += shared.visited;
+    const Box<2> whole = tiled_[0].box();
+    for (const Box<2>& box : shared.unresolved) {
+      Unresolved entry;
+      entry.box = box;
+      entry.has_box = true;
+      entry.reason = budget_ + " before it was told which curves meet";
+      result_.undecided.push_back(std::move(entry));
     }
+    curve_roots_ = hulls_of_curves(shared, n);
+    for (Box<2>& box : curve_roots_)
+      if (box.width(0) > 0) box = root_around(box, whole);
+    for (const MeetingPair& pair : meeting_pairs(shared))
+      isolate_pair(pair.curves, root_around(pair.hull, whole));
+    result_.shared_cover = std::move(shared.cover);
+  } else {
+    for (const TiledPolynomial& f : tiled_) curve_roots_.push_back(f.box());
+    if (n == 2) isolate_pair({0, 1}, tiled_[0].box());
+  }
   report_concurrency();
+}
+
+/// All common zeros of two curves in the part of a box that lies in the region.
+void Encaser::isolate_pair(const std::array<int, 2>& curves, const Box<2>& root) {
+  const SubdivisionLimits pair_limits =
+      limits("isolating crossings", Unresolved::Kind::Contact, root);
+  const auto isolate = [&](TiledPolynomial& f, TiledPolynomial& g) {
+    return isolate_roots(f, g, sides_, pair_limits, kernel_);
+  };
+  const auto [i, j] = curves;
+  RootIsolation<2> roots;
+  if (root == tiled_[i].box()) {
+    roots = isolate(tiled_[i], tiled_[j]);
+  } else {
+    TiledPolynomial f(polynomials_[i], root, kernel_), g(polynomials_[j], root, kernel_);
+    roots = isolate(f, g);
+  }
+  result_.statistics.root_boxes += roots.boxes;
+  const int first = static_cast<int>(partition_->crossings.size());
+  for (std::size_t k = 0; k < roots.roots.size(); ++k) {
+    Crossing crossing;
+    crossing.curves = curves;
+    crossing.box = roots.roots[k];
+    crossing.point = crossing.box.center();
+    crossing.rounded = roots.rounded[k];
+    partition_->crossings.push_back(crossing);
+  }
+  for (int& token : roots.tokens)
+    if (token >= 0) token += first;
+  report(roots.unresolved, roots.root_box, Unresolved::Kind::Contact, pair_limits.smallest, {i, j});
+  result_.crossing_covers.push_back({curves, roots.root_box, std::move(roots.tokens)});
 }
 
 void Encaser::report_concurrency() {
@@ -342,9 +382,20 @@ void Encaser::report_concurrency() {
 
 void Encaser::find_critical_regions() {
   for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
-    CriticalRegions found = critical_regions(
-        tiled_[c], c, sides_, limits("finding critical regions", Unresolved::Kind::SingularPoint),
-        kernel_);
+    const Box<2>& root = curve_roots_[c];
+    if (!(root.width(0) > 0)) continue;  // the curve has no zero in the region
+    const SubdivisionLimits curve_limits =
+        limits("finding critical regions", Unresolved::Kind::SingularPoint, root);
+    const auto find = [&](TiledPolynomial& f) {
+      return critical_regions(f, c, sides_, curve_limits, kernel_);
+    };
+    CriticalRegions found;
+    if (root == tiled_[c].box()) {
+      found = find(tiled_[c]);
+    } else {
+      TiledPolynomial f(polynomials_[c], root, kernel_);
+      found = find(f);
+    }
     result_.statistics.critical_boxes += found.boxes;
     const int first = static_cast<int>(partition_->critical_regions.size());
     for (int& token : found.tokens)
@@ -352,7 +403,8 @@ void Encaser::find_critical_regions() {
     for (CriticalRegion& region : found.regions)
       partition_->critical_regions.push_back(std::move(region));
     append_saddles(tiled_[c], c, found.other_points, &partition_->saddles);
-    report(found.unresolved, found.root_box, Unresolved::Kind::SingularPoint, {c});
+    report(found.unresolved, found.root_box, Unresolved::Kind::SingularPoint, curve_limits.smallest,
+           {c});
     result_.critical_covers.push_back({c, found.root_box, std::move(found.tokens)});
   }
   std::stable_sort(partition_->saddles.begin(), partition_->saddles.end(),
@@ -393,8 +445,20 @@ void Encaser::collect_zones() {
   }
 }
 
+void Encaser::count_pairs() {
+  Statistics& s = result_.statistics;
+  s.pairs_met = s.pairs_isolated = static_cast<std::int64_t>(result_.crossing_covers.size());
+  s.filter_failures = 0;
+  for (const CrossingCover& cover : result_.crossing_covers)
+    s.filter_failures += std::none_of(cover.tokens.begin(), cover.tokens.end(), [&](int token) {
+      return token == cover::kUnresolved ||
+             (token >= 0 && result_.crossings[token].location != Location::Outside);
+    });
+}
+
 void Encaser::decide_outcome() {
   locate_crossings(result_, kernel_);
+  count_pairs();
   result_.outcome = !result_.undecided.empty()    ? Outcome::Undecided
                     : !result_.degenerate.empty() ? Outcome::Degenerate
                                                   : Outcome::Certified;

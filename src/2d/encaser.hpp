@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,11 +44,14 @@ class Encaser {
   void progress(const char* stage, double done);
   bool open_polygon();
   bool open_plane();
-  SubdivisionLimits limits(const char* stage, Unresolved::Kind kind);
+  SubdivisionLimits limits(const char* stage, Unresolved::Kind kind, const Box<2>& root);
+  std::function<bool()> stop(const char* stage);
+  void isolate_pair(const std::array<int, 2>& curves, const Box<2>& root);
   void use_region(const Region& region);
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
   void report(const std::vector<Box<2>>& unresolved, const Box<2>& root, Unresolved::Kind kind,
-              std::vector<int> curves);
+              double smallest, std::vector<int> curves);
+  void count_pairs();
   void report_concurrency();
   Cell finish(const OpenCell& open, CellState state, int id);
 
@@ -64,6 +69,7 @@ class Encaser {
   std::vector<TiledPolynomial> tiled_;  // the same, over the box of region_used
   std::vector<Line> sides_;             // of region_used
   Box<2> bounds_;                       // of region_used
+  std::vector<Box<2>> curve_roots_;     // of the curves' critical covers; negative widths: none
   std::unique_ptr<Partition> partition_;
   OpenCell first_cell_;
   std::vector<Finished> finished_;

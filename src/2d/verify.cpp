@@ -152,6 +152,28 @@ bool are_tokens(const std::vector<int>& tokens, const std::vector<T>& items) {
   return true;
 }
 
+void check_shared_structure(Claims& claims) {
+  const Encasement& e = claims.result;
+  const SharedCover& cover = e.shared_cover;
+  if (cover.tokens.empty() && cover.alive.empty()) return;
+  bool tokens = true;
+  std::size_t next = 0;
+  for (int token : cover.tokens) {
+    if (token == cover::kSplitX || token == cover::kSplitY || token == cover::kOutside ||
+        token == cover::kUnresolved)
+      continue;
+    tokens = tokens && token >= 0 && static_cast<std::size_t>(token) == next++;
+  }
+  claims.require(has_interior(cover.root) && tokens && next == cover.alive.size(),
+                 "The shared cover has a bad root or token.");
+  bool curves = true;
+  for (const std::vector<int>& alive : cover.alive) {
+    curves = curves && ascending(alive);
+    for (int c : alive) curves = curves && in_range(c, e.curves);
+  }
+  claims.require(curves, "The shared cover does not name ascending indices of curves.");
+}
+
 void check_certificate_structure(Claims& claims) {
   const Encasement& e = claims.result;
   for (std::size_t i = 0; i < e.crossing_covers.size() && !claims.full(); ++i) {
@@ -200,6 +222,7 @@ bool check_structure(Claims& claims) {
   check_input_structure(claims);
   check_crossing_structure(claims);
   check_cell_structure(claims);
+  check_shared_structure(claims);
   check_certificate_structure(claims);
   return claims.report.ok();
 }
@@ -237,7 +260,8 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options) 
   check_curves(claims);
   if (!check_regions(claims) || claims.full()) return claims.report;
 
-  // The partition with all zeros on its lines; then what lies inside.
+  // Where curves can be at all; the partition with all zeros on its lines; then what lies inside.
+  check_shared_cover(claims);
   const Partition partition = replay_history(claims);
   if (partition.complete) {
     check_cell_boundaries(claims, partition);

@@ -52,6 +52,10 @@ struct Claims {
   int max_objections;
   Kernel kernel;
   std::vector<FilteredPolynomial<2>> curves;
+  std::vector<Box<2>> shared_leaves;  ///< of the shared cover, as in its lists of curves
+  /// For every split token of the shared cover the token at which its upper half begins; empty if
+  /// there is no proper one.
+  std::vector<std::size_t> upper_half;
   Verification report;
 };
 
@@ -125,6 +129,15 @@ bool strictly_inside(Claims& claims, const Polygon& polygon, const Box<2>& box);
 /// Each crossing box holds exactly one common zero, no other box of its pair meets it, it lies in
 /// the cell it names, and its location, its point and the rounding of its point are right.
 void check_crossings(Claims& claims, const Partition& partition);
+
+/// The shared cover, if there is one, is a subdivision of a box that contains the region used, and
+/// curves have no zeros in the leaves in whose lists they are not. Finds claims.shared_leaves and
+/// claims.upper_half.
+void check_shared_cover(Claims& claims);
+
+/// The curves that may have zeros on the part of a line that lies in a box and in the region used,
+/// ascending: those alive in leaves of the shared cover that may meet it, or all.
+std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box);
 
 /// The lists of crossings and of critical regions are complete, and the latter are what they claim.
 void check_crossing_covers(Claims& claims);

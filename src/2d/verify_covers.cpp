@@ -81,16 +81,15 @@ bool unresolved(const Encasement& e, const Box<2>& box, const std::vector<int>& 
 }
 
 /// Replays a subdivision from its tokens. `check(token, box)` re-proves a leaf: nothing, or why
-/// not.
+/// not. Returns whether the tokens describe a subdivision.
 template <class Check>
-void replay(Claims& claims, const std::string& name, const Box<2>& root,
+bool replay(Claims& claims, const std::string& name, const Box<2>& root,
             const std::vector<int>& tokens, const Check& check) {
-  claims.require(contains_region(root, claims.result.region_used), name,
-                 " does not cover the region used.");
   std::vector<Box<2>> stack{root};
   for (std::size_t i = 0; i < tokens.size(); ++i) {
-    if (claims.full()) return;
-    if (!claims.require(!stack.empty(), name, " has tokens left after its last leaf.")) return;
+    if (claims.full()) return false;
+    if (!claims.require(!stack.empty(), name, " has tokens left after its last leaf."))
+      return false;
     const Box<2> box = stack.back();
     stack.pop_back();
     const int token = tokens[i];
@@ -98,7 +97,7 @@ void replay(Claims& claims, const std::string& name, const Box<2>& root,
       Box<2> lower, upper;
       if (!claims.require(halves(box, token == cover::kSplitX ? 0 : 1, &lower, &upper), name,
                           " splits a box that doubles cannot split, at token ", i, "."))
-        return;
+        return false;
       stack.push_back(upper);
       stack.push_back(lower);
       continue;
@@ -112,7 +111,7 @@ void replay(Claims& claims, const std::string& name, const Box<2>& root,
     claims.require(!objection, name, ": the leaf at token ", i, " ", objection ? objection : "",
                    ".");
   }
-  claims.require(stack.empty(), name, " ends before its last leaf.");
+  return claims.require(stack.empty(), name, " ends before its last leaf.");
 }
 
 struct Less {
@@ -142,11 +141,174 @@ bool connected(std::vector<Box<2>> boxes) {
   return components == 1;
 }
 
+bool splits(int token) { return token == cover::kSplitX || token == cover::kSplitY; }
+
+/// For every split token of a subdivision the token at which its upper half begins.
+std::vector<std::size_t> upper_halves(const std::vector<int>& tokens) {
+  std::vector<std::size_t> upper(tokens.size()), stack;  // where subtrees begin, the next on top
+  for (std::size_t i = tokens.size(); i-- > 0;) {
+    if (splits(tokens[i])) {
+      stack.pop_back();
+      upper[i] = stack.back();
+      stack.pop_back();
+    }
+    stack.push_back(i);
+  }
+  return upper;
+}
+
+/// For every token of a subdivision how many of the leaves below have a token k >= 0.
+std::vector<int> named_leaves_below(const std::vector<int>& tokens,
+                                    const std::vector<std::size_t>& upper_half) {
+  std::vector<int> count(tokens.size());
+  for (std::size_t i = tokens.size(); i-- > 0;)
+    count[i] = splits(tokens[i]) ? count[i + 1] + count[upper_half[i]] : tokens[i] >= 0;
+  return count;
+}
+
+/// Every curve has no zero in the leaves in whose lists it is not. Proved on the largest boxes of
+/// the subdivision that have no other leaves, or else on smaller ones.
+void check_absent_curves(Claims& claims) {
+  const SharedCover& cover = claims.result.shared_cover;
+  const std::vector<int> below = named_leaves_below(cover.tokens, claims.upper_half);
+  std::vector<std::vector<int>> leaves_of(claims.curves.size());
+  for (std::size_t k = 0; k < cover.alive.size(); ++k)
+    for (int c : cover.alive[k])
+      leaves_of[static_cast<std::size_t>(c)].push_back(static_cast<int>(k));
+  struct Open {
+    Box<2> box;
+    std::vector<int> curves;  // not proved to have no zero in the box
+  };
+  std::vector<Open> stack(1);
+  stack[0].box = cover.root;
+  for (std::size_t c = 0; c < claims.curves.size(); ++c)
+    stack[0].curves.push_back(static_cast<int>(c));
+  int leaf = 0;  // the first that is not in a box left behind
+  for (std::size_t i = 0; i < cover.tokens.size() && !claims.full(); ++i) {
+    Open here = std::move(stack.back());
+    stack.pop_back();
+    const int token = cover.tokens[i];
+    const auto keeps_sign = [&](int c, const Box<2>& box) {
+      return sign_on_box(claims.curves[static_cast<std::size_t>(c)], box, claims.kernel)
+          .has_value();
+    };
+    if (below[i] > 0)
+      std::erase_if(here.curves, [&](int c) {
+        const std::vector<int>& leaves = leaves_of[static_cast<std::size_t>(c)];
+        const auto next = std::lower_bound(leaves.begin(), leaves.end(), leaf);
+        return (next == leaves.end() || *next >= leaf + below[i]) && keeps_sign(c, here.box);
+      });
+    if (splits(token)) {
+      Open lower, upper;
+      halves(here.box, token == cover::kSplitX ? 0 : 1, &lower.box, &upper.box);
+      lower.curves = here.curves;
+      upper.curves = std::move(here.curves);
+      stack.push_back(std::move(upper));
+      stack.push_back(std::move(lower));
+    } else if (token >= 0) {
+      const std::vector<int>& alive = cover.alive[static_cast<std::size_t>(token)];
+      for (int c : here.curves) {
+        if (std::binary_search(alive.begin(), alive.end(), c)) continue;
+        const bool proved =
+            by_parts(here.box, [&](const Box<2>& box) { return keeps_sign(c, box); });
+        claims.require(proved, "Curve ", c, " is not proved absent from leaf ", token,
+                       " of the shared cover.");
+      }
+      ++leaf;
+    }
+  }
+}
+
+/// The root of a cover of the curves `key`, which are alive together in leaves of the shared cover
+/// with the hull hulls[key], if there is one.
+template <class Key>
+void check_root(Claims& claims, const std::string& name, const Box<2>& root,
+                const std::map<Key, Box<2>>& hulls, const Key& key) {
+  if (claims.result.shared_cover.tokens.empty()) {
+    claims.require(contains_region(root, claims.result.region_used), name,
+                   " does not cover the region used.");
+  } else if (const auto found = hulls.find(key); found != hulls.end()) {
+    claims.require(root.contains(found->second), name,
+                   " does not cover the shared cover's leaves.");
+  }
+}
+
+template <class Key>
+void join(std::map<Key, Box<2>>* hulls, const Key& key, const Box<2>& box) {
+  Box<2>& known = hulls->try_emplace(key, box).first->second;
+  known = hull(known, box);
+}
+
 }  // namespace
+
+void check_shared_cover(Claims& claims) {
+  const SharedCover& cover = claims.result.shared_cover;
+  if (cover.tokens.empty()) return;
+  const std::string name = "The shared cover";
+  claims.require(contains_region(cover.root, claims.result.region_used), name,
+                 " does not cover the region used.");
+  std::vector<int> all(claims.curves.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto check = [&](int token, const Box<2>& leaf) -> const char* {
+    if (token == cover::kUnresolved)
+      return unresolved(claims.result, leaf, all) ? nullptr
+                                                  : "is in no unresolved box of all curves";
+    claims.shared_leaves.push_back(leaf);
+    return nullptr;
+  };
+  const bool whole = replay(claims, name, cover.root, cover.tokens, check);
+  if (!whole) return;
+  claims.upper_half = upper_halves(cover.tokens);
+  check_absent_curves(claims);
+}
+
+std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box) {
+  const SharedCover& cover = claims.result.shared_cover;
+  std::vector<int> all(claims.curves.size()), curves;
+  std::iota(all.begin(), all.end(), 0);
+  if (claims.upper_half.empty()) return all;
+  struct Item {
+    std::size_t token;
+    Box<2> box;
+  };
+  std::vector<Item> stack{{0, cover.root}};
+  while (!stack.empty()) {
+    const Item item = stack.back();
+    stack.pop_back();
+    // (Bounds of `box` that are no numbers exclude nothing.)
+    bool apart = side(line, item.box, claims.kernel).has_value();
+    for (std::size_t i = 0; i < 2; ++i)
+      apart = apart || box.hi[i] < item.box.lo[i] || item.box.hi[i] < box.lo[i];
+    if (apart) continue;
+    const int token = cover.tokens[item.token];
+    if (splits(token)) {
+      Box<2> lower, upper;
+      halves(item.box, token == cover::kSplitX ? 0 : 1, &lower, &upper);
+      stack.push_back({claims.upper_half[item.token], upper});
+      stack.push_back({item.token + 1, lower});
+    } else if (token >= 0) {
+      const std::vector<int>& alive = cover.alive[static_cast<std::size_t>(token)];
+      curves.insert(curves.end(), alive.begin(), alive.end());
+    } else if (token == cover::kUnresolved) {
+      return all;
+    }
+  }
+  std::sort(curves.begin(), curves.end());
+  curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+  return curves;
+}
 
 void check_crossing_covers(Claims& claims) {
   const Encasement& e = claims.result;
   const std::size_t n = e.curves.size();
+  const bool shared = !e.shared_cover.tokens.empty();
+  std::map<std::array<int, 2>, Box<2>> hulls;  // of the leaves in which both are alive
+  for (std::size_t k = 0; k < claims.shared_leaves.size(); ++k) {
+    const std::vector<int>& alive = e.shared_cover.alive[k];
+    for (std::size_t i = 0; i < alive.size(); ++i)
+      for (std::size_t j = i + 1; j < alive.size(); ++j)
+        join(&hulls, {alive[i], alive[j]}, claims.shared_leaves[k]);
+  }
   std::set<std::array<int, 2>> pairs;
   for (std::size_t i = 0; i < e.crossing_covers.size() && !claims.full(); ++i) {
     const CrossingCover& c = e.crossing_covers[i];
@@ -176,10 +338,15 @@ void check_crossing_covers(Claims& claims) {
       };
       return by_parts(leaf, proves) ? nullptr : "is not proved to hold only its crossing";
     };
-    replay(claims, "Crossing cover " + std::to_string(i), c.root, c.tokens, check);
+    const std::string name = "Crossing cover " + std::to_string(i);
+    check_root(claims, name, c.root, hulls, c.curves);
+    replay(claims, name, c.root, c.tokens, check);
   }
-  claims.require(pairs.size() == n * (n - (n > 0)) / 2,
-                 "Some pair of curves has no crossing cover.");
+  const bool complete =
+      shared ? std::all_of(hulls.begin(), hulls.end(),
+                           [&](const auto& pair) { return pairs.count(pair.first) > 0; })
+             : pairs.size() == n * (n - (n > 0)) / 2;
+  claims.require(complete, "Some pair of curves has no crossing cover.");
 }
 
 void check_critical_regions(Claims& claims) {
@@ -208,6 +375,10 @@ void check_critical_covers(Claims& claims) {
   std::vector<Boxes> boxes;
   for (const CriticalRegion& region : e.critical_regions)
     boxes.emplace_back(region.boxes.begin(), region.boxes.end());
+  const bool shared = !e.shared_cover.tokens.empty();
+  std::map<int, Box<2>> hulls;  // of the leaves in which a curve is alive
+  for (std::size_t k = 0; k < claims.shared_leaves.size(); ++k)
+    for (int c : e.shared_cover.alive[k]) join(&hulls, c, claims.shared_leaves[k]);
   std::set<int> curves;
   for (std::size_t i = 0; i < e.critical_covers.size() && !claims.full(); ++i) {
     const CriticalCover& c = e.critical_covers[i];
@@ -228,9 +399,15 @@ void check_critical_covers(Claims& claims) {
       if (e.critical_regions[k].curve != c.curve) return "names a critical region of another curve";
       return boxes[k].contains(leaf) ? nullptr : "is not a box of its critical region";
     };
-    replay(claims, "Critical cover " + std::to_string(i), c.root, c.tokens, check);
+    const std::string name = "Critical cover " + std::to_string(i);
+    check_root(claims, name, c.root, hulls, c.curve);
+    replay(claims, name, c.root, c.tokens, check);
   }
-  claims.require(curves.size() == e.curves.size(), "Some curve has no critical cover.");
+  const bool complete =
+      shared ? std::all_of(hulls.begin(), hulls.end(),
+                           [&](const auto& curve) { return curves.count(curve.first) > 0; })
+             : curves.size() == e.curves.size();
+  claims.require(complete, "Some curve has no critical cover.");
 }
 
 }  // namespace encase::verification

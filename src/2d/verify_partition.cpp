@@ -98,9 +98,25 @@ class Replay {
       if (certified(e_.cells[i]))
         for (const Edge& edge : partition_.cells[i])
           complete[static_cast<std::size_t>(edge.segment)] = true;
-    for (std::size_t s = 0; s < partition_.segments.size(); ++s)
-      for (std::size_t i = 0; i < claims_.curves.size() && !claims_.full(); ++i)
-        check_curve_on_segment(static_cast<int>(i), partition_.segments[s], complete[s]);
+    for (std::size_t s = 0; s < partition_.segments.size() && !claims_.full(); ++s)
+      for (int curve : curves_on_segment(partition_.segments[s], complete[s])) {
+        if (claims_.full()) break;
+        check_curve_on_segment(curve, partition_.segments[s], complete[s]);
+      }
+  }
+
+  /// The curves about which a segment claims something that the shared cover does not prove.
+  std::vector<int> curves_on_segment(const Segment& segment, bool complete) {
+    std::vector<int> curves;
+    if (complete) {
+      const auto point = point_on_line(line(segment.line), Interval(segment.lo, segment.hi));
+      curves = curves_near(claims_, line(segment.line),
+                           {{point[0].lo, point[1].lo}, {point[0].hi, point[1].hi}});
+    }
+    for (int id : segment.crossings) curves.push_back(crossing(id).curve);
+    std::sort(curves.begin(), curves.end());
+    curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+    return curves;
   }
 
   void check_curve_on_segment(int curve, const Segment& segment, bool complete) {

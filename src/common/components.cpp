@@ -163,6 +163,36 @@ class Refinement {
   std::vector<Element> elements_;
 };
 
+/// From so many polynomials on their product is looked at first, not all pairs.
+constexpr std::size_t kMany = 24;
+
+/// The product of `count` polynomials modulo their prime: of that of either half.
+void multiply_all(const std::optional<ModularPolynomial>* first, std::size_t count,
+                  nmod_poly_struct* product) {
+  if (count == 1) {
+    const ModularPolynomial& f = **first;
+    for (std::size_t k = f.size(); k-- > 0;)
+      nmod_poly_set_coeff_ui(product, static_cast<slong>(k), f[k]);
+    return;
+  }
+  ModularPoly lower(nmod_poly_modulus(product)), upper(nmod_poly_modulus(product));
+  multiply_all(first, count / 2, lower);
+  multiply_all(first + count / 2, count - count / 2, upper);
+  nmod_poly_mul(product, lower, upper);
+}
+
+/// Whether there are restrictions of all polynomials, and none has a multiple factor modulo the
+/// prime or one in common with another. One greatest common divisor for all of them.
+bool product_is_square_free(const std::vector<std::optional<ModularPolynomial>>& restrictions) {
+  for (const auto& f : restrictions)
+    if (!f) return false;
+  ModularPoly product(kModularPrime), derivative(kModularPrime), common(kModularPrime);
+  multiply_all(restrictions.data(), restrictions.size(), product);
+  nmod_poly_derivative(derivative, product);
+  nmod_poly_gcd(common, product, derivative);
+  return nmod_poly_degree(common) == 0;
+}
+
 }  // namespace
 
 // Restricting to one line modulo one prime p proves both statements below, whenever the restriction
@@ -175,15 +205,21 @@ class Refinement {
 //
 // No shared factor: let f = c H F' and g = c' H G' likewise, with H not constant. As before
 // deg H| = deg H > 0, and H| divides r and the restriction of g (which may be of any degree).
+//
+// So nothing is repeated or shared among polynomials whose restrictions all keep the degree and
+// have a square-free product.
 std::vector<BaseElement<2>> coprime_square_free_base(const std::vector<Polynomial<2>>& inputs) {
   const std::size_t n = inputs.size();
   std::vector<std::optional<ModularPolynomial>> restriction(n);  // that keep the degree
-  std::vector<char> simple(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (inputs[i].is_constant()) continue;
-    restriction[i] = restrict_modulo_prime(inputs[i]);
-    simple[i] = restriction[i] && square_free(*restriction[i]);
+  for (std::size_t i = 0; i < n; ++i)
+    if (!inputs[i].is_constant()) restriction[i] = restrict_modulo_prime(inputs[i]);
+  if (n >= kMany && product_is_square_free(restriction)) {
+    std::vector<BaseElement<2>> all;
+    for (std::size_t i = 0; i < n; ++i) all.push_back({inputs[i], {{static_cast<int>(i), 1}}});
+    return all;
   }
+  std::vector<char> simple(n);
+  for (std::size_t i = 0; i < n; ++i) simple[i] = restriction[i] && square_free(*restriction[i]);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j) {
       if (inputs[i].is_constant() || inputs[j].is_constant()) continue;

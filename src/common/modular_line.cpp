@@ -11,7 +11,7 @@ namespace {
 using Residue = std::uint64_t;
 
 constexpr int kBits = 61;
-constexpr Residue kPrime = (Residue{1} << kBits) - 1;
+constexpr Residue kPrime = kModularPrime;
 constexpr Residue kOffset = 1034971827364859203, kSlope = 1234567890123456789;
 
 /// The residue of a number below 2^123: 2^61 is 1 modulo the prime.

@@ -9,6 +9,8 @@
 
 namespace encase {
 
+inline constexpr std::uint64_t kModularPrime = (std::uint64_t{1} << 61) - 1;
+
 /// A polynomial in one variable modulo the prime 2^61 - 1: residues, constant coefficient first,
 /// the last one not zero.
 using ModularPolynomial = std::vector<std::uint64_t>;

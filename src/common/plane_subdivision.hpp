@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/patch.hpp"
@@ -22,6 +23,30 @@ inline int wider_axis(const Box<2>& box) {
 /// what patches have.
 inline bool halves_exactly(const Box<2>& box) {
   return centered(box.lo[0], box.hi[0]).exact && centered(box.lo[1], box.hi[1]).exact;
+}
+
+/// Whether a box is proved to lie in all half planes, or outside of one (on its positive side).
+inline std::optional<bool> lies_inside(const Box<2>& box, const std::vector<Line>& half_planes) {
+  bool inside = true;
+  for (const Line& line : half_planes) {
+    double least = line.offset, most = line.offset, magnitude = std::fabs(line.offset);
+    for (int i = 0; i < 2; ++i) {
+      const double a = line.normal[i] * box.lo[i], b = line.normal[i] * box.hi[i];
+      least += std::min(a, b);
+      most += std::max(a, b);
+      magnitude += std::max(std::fabs(a), std::fabs(b));
+    }
+    // Six roundings, and what underflows; and rational coefficients are within an ulp of the
+    // doubles, also below the normal range.
+    double slack = 0x1p-49 * magnitude + 0x1p-1000;
+    if (line.rational)
+      for (int i = 0; i < 2; ++i)
+        slack += 0x1p-1000 * (1 + std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i])));
+    if (least > slack) return false;
+    inside = inside && most < -slack;
+  }
+  if (inside) return true;
+  return std::nullopt;
 }
 
 /// The subdivision of a box of the plane, with the patches of N polynomials on the boxes. Of
@@ -242,26 +267,9 @@ int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
 /// Whether the box lies outside one of the half planes; notes if it lies in all of them.
 template <int N>
 bool PlaneSubdivision<N>::outside(Node& node) const {
-  bool inside = true;
-  for (const Line& line : half_planes_) {
-    double least = line.offset, most = line.offset, magnitude = std::fabs(line.offset);
-    for (int i = 0; i < 2; ++i) {
-      const double a = line.normal[i] * node.box.lo[i], b = line.normal[i] * node.box.hi[i];
-      least += std::min(a, b);
-      most += std::max(a, b);
-      magnitude += std::max(std::fabs(a), std::fabs(b));
-    }
-    // Six roundings, and what underflows; and rational coefficients are within an ulp of the
-    // doubles, also below the normal range.
-    double slack = 0x1p-49 * magnitude + 0x1p-1000;
-    if (line.rational)
-      for (int i = 0; i < 2; ++i)
-        slack += 0x1p-1000 * (1 + std::max(std::fabs(node.box.lo[i]), std::fabs(node.box.hi[i])));
-    if (least > slack) return true;
-    inside = inside && most < -slack;
-  }
-  node.inside = inside;
-  return false;
+  const std::optional<bool> where = lies_inside(node.box, half_planes_);
+  node.inside = where == true;
+  return where == false;
 }
 
 template <int N>

@@ -126,6 +126,29 @@ TEST(Base, TheSameCurveTwiceIsOneElement) {
   EXPECT_EQ(base[0].sources, (Sources{{0, 1}, {1, 1}}));
 }
 
+TEST(Base, ManyInputsAreLookedAtTogether) {
+  std::mt19937_64 generator(3);
+  std::vector<Polynomial<2>> inputs;
+  for (int k = 0; k < 60; ++k)
+    inputs.push_back(random_dense<2>(generator, 1 + k % 3) + constant(Rational(k, 7)));
+  const auto base = coprime_square_free_base(inputs);
+  ASSERT_EQ(base.size(), inputs.size());
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    EXPECT_EQ(base[k].polynomial, inputs[k]);
+    ASSERT_EQ(base[k].sources.size(), 1u);
+    EXPECT_EQ(base[k].sources[0].index, static_cast<int>(k));
+    EXPECT_EQ(base[k].sources[0].multiplicity, 1);
+  }
+  // One shared, one repeated, one constant: each is found among the others.
+  for (const auto& more : {inputs[7] * (kX - kY), (kX + kY).power(2), constant(5)}) {
+    auto changed = inputs;
+    changed.push_back(more);
+    const auto found = coprime_square_free_base(changed);
+    expect_factored(changed, found);
+    EXPECT_EQ(found.size(), inputs.size() + (more.is_constant() ? 0 : 1));
+  }
+}
+
 TEST(Base, APrimeThatDropsDegreesProvesNothing) {
   // Modulo p = 2^61 - 1 the shared factor is constant.
   const Rational p((ulong{1} << 61) - 1);

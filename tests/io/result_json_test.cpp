@@ -42,6 +42,7 @@ Encasement full_sample() {
   e.line_crossings[1].hi = 1e300;
   e.critical_regions[0].sign = Sign::Positive;
   e.critical_regions[0].boxes.push_back({{0.1, 0.2}, {0.3, 0.4}});
+  e.shared_cover = {{{-1.5, -1}, {1, 1.25}}, {-1, -2, 0, -5, 1}, {{0, 1}, {}}};
   e.crossing_covers[0].tokens = {-1, -2, -4, -5, -6, 0, 1};
   Unresolved place;
   place.kind = Unresolved::Kind::Concurrency;
@@ -55,6 +56,9 @@ Encasement full_sample() {
   place.proved = true;
   e.undecided = {place};
   e.statistics.decisions = {1, 2, 3, 4};
+  e.statistics.pairs_met = 14;
+  e.statistics.pairs_isolated = 13;
+  e.statistics.filter_failures = 12;
   e.statistics.root_boxes = std::numeric_limits<std::int64_t>::max();
   e.statistics.critical_boxes = 5;
   e.statistics.restrictions = 6;
@@ -177,6 +181,9 @@ void expect_equal(const Encasement& a, const Encasement& b) {
     EXPECT_EQ(a.history[k].negative, b.history[k].negative);
     EXPECT_EQ(a.history[k].positive, b.history[k].positive);
   }
+  expect_equal(a.shared_cover.root, b.shared_cover.root);
+  EXPECT_EQ(a.shared_cover.tokens, b.shared_cover.tokens);
+  EXPECT_EQ(a.shared_cover.alive, b.shared_cover.alive);
   ASSERT_EQ(a.crossing_covers.size(), b.crossing_covers.size());
   for (std::size_t k = 0; k < a.crossing_covers.size(); ++k) {
     EXPECT_EQ(a.crossing_covers[k].curves, b.crossing_covers[k].curves);
@@ -202,6 +209,9 @@ void expect_equal(const Encasement& a, const Encasement& b) {
   EXPECT_EQ(s.decisions.by_mpfr, t.decisions.by_mpfr);
   EXPECT_EQ(s.decisions.by_exact, t.decisions.by_exact);
   EXPECT_EQ(s.decisions.undecided, t.decisions.undecided);
+  EXPECT_EQ(s.pairs_met, t.pairs_met);
+  EXPECT_EQ(s.pairs_isolated, t.pairs_isolated);
+  EXPECT_EQ(s.filter_failures, t.filter_failures);
   EXPECT_EQ(s.root_boxes, t.root_boxes);
   EXPECT_EQ(s.critical_boxes, t.critical_boxes);
   EXPECT_EQ(s.restrictions, t.restrictions);
@@ -259,6 +269,14 @@ TEST(ResultJson, HasTheDocumentedKeys) {
   EXPECT_TRUE(json["cells"][2]["crossing"].is_null());
   EXPECT_TRUE(json["undecided"][0]["box"].is_null());
   EXPECT_FALSE(json.contains("seconds"));
+  EXPECT_EQ(
+      json["covers"]["shared"],
+      Json::parse(R"({"root":[[-1.5,1],[-1,1.25]],"tokens":[-1,-2,0,-5,1],"alive":[[0,1],[]]})"));
+  EXPECT_EQ(json["statistics"]["pairs_met"], 14);
+  // Only where there is a shared cover.
+  const Json pair = Json::parse(to_json(sample::circle_and_line()));
+  EXPECT_FALSE(pair["covers"].contains("shared"));
+  EXPECT_FALSE(pair["statistics"].contains("pairs_met"));
 }
 
 TEST(ResultJson, DoesNotDependOnTheTimeTaken) {
@@ -311,6 +329,14 @@ TEST(ResultJson, RefusesWhatRefersToNothingOrIsOutOfRange) {
   EXPECT_TRUE(refused([](Json& j) { j["covers"]["crossings"][0]["tokens"][0] = -7; }));
   EXPECT_TRUE(refused([](Json& j) { j["covers"]["crossings"][0]["tokens"][0] = cover::kSplitZ; }));
   EXPECT_TRUE(refused([](Json& j) { j["covers"]["critical"][0]["tokens"][0] = 1; }));
+  EXPECT_TRUE(refused([](Json& j) { j["covers"]["shared"]["tokens"][2] = 2; }));
+  EXPECT_TRUE(refused([](Json& j) { j["covers"]["shared"]["tokens"][2] = -7; }));
+  EXPECT_TRUE(refused([](Json& j) { j["covers"]["shared"]["alive"][0][1] = 2; }));
+  EXPECT_TRUE(refused([](Json& j) { j["covers"]["shared"]["alive"] = 1; }));
+  EXPECT_TRUE(refused([](Json& j) { j["covers"]["shared"].erase("alive"); }));
+  EXPECT_TRUE(refused([](Json& j) { j["covers"]["shared"]["root"][0] = {1, 0}; }));
+  EXPECT_TRUE(refused([](Json& j) { j["statistics"]["pairs_met"] = -1; }));
+  EXPECT_TRUE(refused([](Json& j) { j["statistics"].erase("filter_failures"); }));
   EXPECT_TRUE(refused([](Json& j) { j["covers"]["critical"][0]["tokens"][0] = 1ull << 63; }));
   EXPECT_TRUE(refused([](Json& j) { j["degenerate"][0]["curves"][0] = 2; }));
   EXPECT_TRUE(refused([](Json& j) { j["input"]["seed"] = -1; }));
@@ -372,7 +398,7 @@ TEST(SummaryJson, CountsWhatItNames) {
   e.seconds = 0.25;
   EXPECT_EQ(
       summary_json(e),
-      R"({"status":"undecided","curves":2,"crossings":1,"cells":3,"relaxed_cells":1,"seconds":0.25})");
+      R"({"status":"undecided","curves":2,"crossings":1,"cells":3,"relaxed_cells":1,"pairs_met":14,"pairs_isolated":13,"filter_failures":12,"seconds":0.25})");
 }
 
 }  // namespace

@@ -294,6 +294,7 @@ class Files(CommandTest):
         self.assertEqual(summary["status"], "certified")
         self.assertEqual((summary["curves"], summary["crossings"]), (2, 2))
         self.assertEqual(set(summary), {"status", "curves", "crossings", "cells", "relaxed_cells",
+                                        "pairs_met", "pairs_isolated", "filter_failures",
                                         "seconds", "vertices", "edges", "faces", "components"})
         # Two crossings, the cubic's ends and four corners; the circle in two pieces, the cubic in
         # three, the boundary in six.
