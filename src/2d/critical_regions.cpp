@@ -6,16 +6,12 @@
 
 #include "common/box_tests.hpp"
 #include "common/plane_subdivision.hpp"
+#include "common/union_find.hpp"
 
 namespace encase {
 
 std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
-  std::vector<int> parent(boxes.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto find = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  UnionFind sets(boxes.size());
   // A sweep over the lower x bounds; boxes leave the front when they end before the sweep.
   std::vector<int> order(boxes.size()), front;
   std::iota(order.begin(), order.end(), 0);
@@ -25,13 +21,13 @@ std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
   for (const int i : order) {
     std::erase_if(front, [&](int j) { return boxes[j].hi[0] < boxes[i].lo[0]; });
     for (const int j : front)
-      if (boxes[j].meets(boxes[i])) parent[find(j)] = find(i);
+      if (boxes[j].meets(boxes[i])) sets.join(j, i);
     front.push_back(i);
   }
   std::vector<int> number(boxes.size(), -1), component(boxes.size());
   int count = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    int& n = number[find(static_cast<int>(i))];
+    int& n = number[sets.find(static_cast<int>(i))];
     if (n < 0) n = count++;
     component[i] = n;
   }

@@ -192,7 +192,7 @@ bool Encaser::open_polygon() {
 bool Encaser::open_plane() {
   std::vector<Polynomial<2>> curves;
   for (const Curve& curve : result_.curves) curves.push_back(curve.polynomial);
-  Surroundings surroundings = find_surroundings(curves, kernel_);
+  Surroundings surroundings = find_surroundings(curves, stop("looking for a rectangle"), kernel_);
   const Rational x(surroundings.half[0]), y(surroundings.half[1]);
   use_region(make_region(-x, x, -y, y).value());
   for (Surroundings::Open& open : surroundings.open) {

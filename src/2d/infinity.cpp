@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "common/box_tests.hpp"
@@ -32,17 +33,24 @@ bool keeps_sign(const FilteredPolynomial<2>& f, double lo, double hi, Kernel& ke
   return f.degree() >= 0 && sign_on_box(f, box_of(lo, hi), kernel).has_value();
 }
 
+/// What the search asks about.
+struct Question {
+  const std::vector<Polynomial<2>>& curves;
+  const std::function<bool()>& stop;
+  Kernel& kernel;
+};
+
 /// The pieces of one chart for one rectangle.
 class Charting {
  public:
-  Charting(const std::vector<Polynomial<2>>& curves, const Point<2>& half, int chart,
-           Kernel& kernel)
-      : chart_(chart), kernel_(kernel) {
-    outside_.reserve(curves.size());
-    for (const Polynomial<2>& p : curves) outside_.emplace_back(p, half, chart);
+  Charting(const Question& question, const Point<2>& half, int chart)
+      : question_(question), chart_(chart) {
+    outside_.reserve(question.curves.size());
+    for (const Polynomial<2>& p : question.curves) outside_.emplace_back(p, half, chart);
   }
 
-  /// False as soon as there are more than `most` open directions, or one is too wide.
+  /// False as soon as there are more than `most` open directions, one is too wide, or it is
+  /// stopped.
   bool run(std::size_t most, Surroundings* result) {
     most_ = most;
     std::vector<int> all(outside_.size());
@@ -52,12 +60,13 @@ class Charting {
 
  private:
   bool divide(double lo, double hi, const std::vector<int>& curves, Surroundings* result) {
+    if (question_.stop && question_.stop()) return false;
     std::vector<int> here;
     for (const int c : curves)
-      if (!keeps_sign(outside_[c].f, lo, hi, kernel_)) here.push_back(c);
+      if (!keeps_sign(outside_[c].f, lo, hi, question_.kernel)) here.push_back(c);
     const bool at_corner = lo == -1 || hi == 1;
-    if (here.empty() ||
-        (here.size() == 1 && !at_corner && keeps_sign(outside_[here[0]].slope, lo, hi, kernel_))) {
+    if (here.empty() || (here.size() == 1 && !at_corner &&
+                         keeps_sign(outside_[here[0]].slope, lo, hi, question_.kernel))) {
       result->pieces.push_back({chart_, lo, hi, here.empty() ? -1 : here[0]});
       return true;
     }
@@ -78,28 +87,27 @@ class Charting {
     return divide(lo, middle, here, result) && divide(middle, hi, here, result);
   }
 
+  const Question& question_;
   std::vector<Outside> outside_;
   int chart_;
-  Kernel& kernel_;
   std::size_t most_ = 0;
 };
 
-std::optional<Surroundings> try_rectangle(const std::vector<Polynomial<2>>& curves,
-                                          const Point<2>& half, std::size_t most_open,
-                                          Kernel& kernel) {
+std::optional<Surroundings> try_rectangle(const Question& question, const Point<2>& half,
+                                          std::size_t most_open) {
   Surroundings result;
   result.half = half;
   for (int chart = 0; chart < 2; ++chart)
-    if (!Charting(curves, half, chart, kernel).run(most_open, &result)) return std::nullopt;
+    if (!Charting(question, half, chart).run(most_open, &result)) return std::nullopt;
   return result;
 }
 
 /// The smallest rectangle of a ratio that has at most so many open directions.
-std::optional<Surroundings> smallest(const std::vector<Polynomial<2>>& curves, double ratio,
-                                     std::size_t most_open, Kernel& kernel) {
+std::optional<Surroundings> smallest(const Question& question, double ratio,
+                                     std::size_t most_open) {
   const auto at = [&](int power) {
     const double x = std::ldexp(1.0, power);
-    return try_rectangle(curves, {x, ratio * x}, most_open, kernel);
+    return try_rectangle(question, {x, ratio * x}, most_open);
   };
   int power = 0;
   std::optional<Surroundings> best = at(power);
@@ -117,24 +125,31 @@ std::optional<Surroundings> smallest(const std::vector<Polynomial<2>>& curves, d
 
 }  // namespace
 
-Surroundings find_surroundings(const std::vector<Polynomial<2>>& curves, Kernel& kernel) {
+Surroundings find_surroundings(const std::vector<Polynomial<2>>& curves,
+                               const std::function<bool()>& stop, Kernel& kernel) {
+  const Question question{curves, stop, kernel};
   for (const double ratio : kRatios)
-    if (auto found = smallest(curves, ratio, 0, kernel)) return *std::move(found);
+    if (auto found = smallest(question, ratio, 0)) return *std::move(found);
   // There are directions in which nothing helps: as few as in a large rectangle.
   constexpr std::size_t kMany = 1000;
-  constexpr int kLarge = 24;
   std::optional<Surroundings> best;
   double best_ratio = 1;
-  for (const double ratio : kRatios) {
-    const double x = std::ldexp(1.0, kLarge);
-    auto found = try_rectangle(curves, {x, ratio * x}, kMany, kernel);
-    if (found && (!best || found->open.size() < best->open.size())) {
+  for (const int large : {24, kMostPower}) {
+    for (const double ratio : kRatios) {
+      const double x = std::ldexp(1.0, large);
+      auto found = try_rectangle(question, {x, ratio * x}, kMany);
+      if (!found || (best && best->open.size() <= found->open.size())) continue;
       best = std::move(found);
       best_ratio = ratio;
     }
+    if (best) break;
   }
-  if (!best) return {{1, 1}, {}, {{0, -1, 1, {}}, {1, -1, 1, {}}}};
-  auto small = smallest(curves, best_ratio, best->open.size(), kernel);
+  if (!best) {
+    std::vector<int> all(curves.size());
+    std::iota(all.begin(), all.end(), 0);
+    return {{1, 0.75}, {}, {{0, -1, 1, all}, {1, -1, 1, all}}};
+  }
+  auto small = smallest(question, best_ratio, best->open.size());
   return small ? *std::move(small) : *std::move(best);
 }
 

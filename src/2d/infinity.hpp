@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/kernel.hpp"
@@ -25,6 +26,8 @@ struct Surroundings {
 
 /// The smallest one that is found, with half widths powers of two and a few ratios; the one with
 /// the fewest open directions where there are such in all of them.
-Surroundings find_surroundings(const std::vector<Polynomial<2>>& curves, Kernel& kernel);
+/// `stop` is asked now and then; when it says so nothing is found, and both charts stay open.
+Surroundings find_surroundings(const std::vector<Polynomial<2>>& curves,
+                               const std::function<bool()>& stop, Kernel& kernel);
 
 }  // namespace encase

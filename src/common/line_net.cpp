@@ -276,7 +276,10 @@ void find_sign_change(const LineNet& net, const BernsteinTables& tables, bool ri
   change->verdict = SignChange::Verdict::TooMuchBend;
 }
 
-void value_at(const Tile& tile, double s, double t, double* result) {
+/// The tile's polynomial at a point, in Horner's rule for eight powers of t at a time; or the sum
+/// of the absolute values of its terms, for s, t >= 0.
+template <bool absolute_values>
+HWY_INLINE double sum_of_terms(const Tile& tile, double s, double t) {
   const int n = tile.degree;
   // t^0, ..., t^7
   const double t2 = t * t, t4 = t2 * t2;
@@ -284,27 +287,23 @@ void value_at(const Tile& tile, double s, double t, double* result) {
   const Row at = Row::all(s), power = Row::load(powers);
   double sum = 0;
   for (int j = n / 8 * 8; j >= 0; j -= 8) {
-    const double* a = tile.a[0].data() + j;
-    Row r = Row::load(a + (n - j) * Tile::kRow);
-    for (int i = n - j - 1; i >= 0; --i) r = r * at + Row::load(a + i * Tile::kRow);
+    const auto row = [&](int i) HWY_ATTR {
+      const Row a = Row::load(tile.a[0].data() + j + i * Tile::kRow);
+      return absolute_values ? absolute(a) : a;
+    };
+    Row r = row(n - j);
+    for (int i = n - j - 1; i >= 0; --i) r = r * at + row(i);
     sum = sum_of_lanes(r * power) + sum * (t4 * t4);
   }
-  *result = sum;
+  return sum;
+}
+
+void value_at(const Tile& tile, double s, double t, double* result) {
+  *result = sum_of_terms<false>(tile, s, t);
 }
 
 void largest_value(const Tile& tile, double s, double t, double* result) {
-  const int n = tile.degree;
-  const double t2 = t * t, t4 = t2 * t2;
-  HWY_ALIGN const double powers[8] = {1, t, t2, t2 * t, t4, t4 * t, t4 * t2, t4 * (t2 * t)};
-  const Row at = Row::all(s), power = Row::load(powers);
-  double sum = 0;
-  for (int j = n / 8 * 8; j >= 0; j -= 8) {
-    const double* a = tile.a[0].data() + j;
-    Row r = absolute(Row::load(a + (n - j) * Tile::kRow));
-    for (int i = n - j - 1; i >= 0; --i) r = r * at + absolute(Row::load(a + i * Tile::kRow));
-    sum = sum_of_lanes(r * power) + sum * (t4 * t4);
-  }
-  *result = sum * (1 + 0x1p-45);
+  *result = sum_of_terms<true>(tile, s, t) * (1 + 0x1p-45);
 }
 
 }  // namespace encase::HWY_NAMESPACE

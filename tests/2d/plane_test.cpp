@@ -149,6 +149,22 @@ TEST(Plane, HyperbolasWithCommonAsymptotesMeetAtInfinity) {
   for (int c = 0; c < 2; ++c) EXPECT_EQ(ends(e, c), 4);
 }
 
+TEST(Plane, MeetingsFarApartAreReported) {
+  // Two directions in small rectangles, one in large ones.
+  const Encasement e = in_plane({"y", "y - 1000000000"});
+  expect_open_at_infinity(e, 1);
+  EXPECT_GT(e.region_used.bounding_box().hi[1], 1e9);
+}
+
+TEST(Plane, TheSearchForARectangleIsStopped) {
+  EncaseOptions options;
+  int asked = 0;
+  options.progress = [&](const char*, double) { return ++asked < 3; };
+  const Encasement e = run({"y - x^2", "y - x^2 - 1"}, whole_plane(), options);
+  EXPECT_EQ(e.outcome, Outcome::Undecided);
+  EXPECT_TRUE(e.infinity.empty());
+}
+
 TEST(Plane, ResultsAreReadAgain) {
   for (const Encasement& e :
        {in_plane({"x^2 + y^2 - 1", "x - y"}), in_plane({"y - x^2", "y - 2x - 3"})}) {

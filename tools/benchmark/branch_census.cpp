@@ -1,33 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "branch_census.hpp"
 
-#include <numeric>
 #include <vector>
 
+#include "common/union_find.hpp"
+
 namespace encase::benchmark {
-namespace {
-
-/// The connected pieces of the curves: line crossings joined by the cells' branches.
-class Pieces {
- public:
-  explicit Pieces(std::size_t line_crossings) : parent_(line_crossings) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int find(int k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void join(int a, int b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<int> parent_;
-};
-
-}  // namespace
-
 BranchCensus branch_census(const Encasement& encasement) {
   const std::size_t n = encasement.line_crossings.size();
-  Pieces pieces(n);
+  UnionFind pieces(n);  // line crossings joined by the cells' branches
   std::vector<char> used(n), crossed(n), open(n);
   for (const Cell& cell : encasement.cells)
     for (const Branch& branch : cell.branches) {
