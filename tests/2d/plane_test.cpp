@@ -209,5 +209,16 @@ TEST(Plane, TheCheckerObjects) {
   expect("not a rectangle", [&](auto& m) { m.region_used.corners[0][0] *= 2; });
 }
 
+TEST(Plane, ATouchingCurveIsNotTakenForAnArc) {
+  // The parabola alone is in the middle piece, but turns back there.
+  const Encasement e = in_plane({"y - x^2"});
+  const std::string text = objections(e, [](Encasement& m) {
+    m.degenerate.clear();
+    m.outcome = Outcome::Certified;
+    m.infinity = {{0, -1, 1, -1}, {1, -1, -0.75, -1}, {1, -0.75, 0.75, 0}, {1, 0.75, 1, -1}};
+  });
+  EXPECT_EQ(text, "The direction of curve 0 in piece 2 at infinity is not proved.\n");
+}
+
 }  // namespace
 }  // namespace encase
