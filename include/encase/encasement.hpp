@@ -253,4 +253,12 @@ struct EncaseOptions {
 Result<Encasement> encase(const std::vector<NamedCurve>& curves, const Region& region,
                           const EncaseOptions& options = {});
 
+/// Encases the curves of an earlier encasement and some more, in the same region. Takes over the
+/// earlier one's crossings, critical regions and splitting lines wherever they still serve; so it
+/// costs less than to encase all anew, needs more cells, and leads to the same arrangement. The
+/// earlier perturbation and seed stay in force, those of `options` count for nothing; else as
+/// `encase`. What is taken over is not proved again: `verify` does so.
+Result<Encasement> add_curves(const Encasement& earlier, const std::vector<NamedCurve>& more,
+                              const EncaseOptions& options = {});
+
 }  // namespace encase

@@ -73,6 +73,13 @@ class CellAtHand {
   /// vertex, a crossing box or a zone, or if the roots on it are not proved. False if there is no
   /// cut.
   bool prove_best();
+  /// Proves what one line does, in place of all that are proposed.
+  bool prove_only(const Line& line) {
+    prepare();
+    start_again();
+    prove(line);
+    return has_cut_;
+  }
   bool has_cut() const { return has_cut_; }
   Cut& cut() { return best_; }
   /// Forgets the lines proposed and the best cut.

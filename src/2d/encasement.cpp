@@ -7,14 +7,14 @@
 
 namespace encase {
 
+namespace {
+
 /// The numbers are those of docs/encasement.md; the thesis is J. Masterjohn's (see there).
-Result<Encasement> encase(const std::vector<NamedCurve>& curves, const Region& region,
-                          const EncaseOptions& options) {
+Result<Encasement> encase(Encaser& run) {
   if (std::fegetround() != FE_TONEAREST)
     return Error{Error::Code::BadInput,
                  "the processor must round to nearest while curves are encased; call "
                  "std::fesetround(FE_TONEAREST)"};
-  Encaser run(curves, region, options);
 
   // 1. Sanity: refuse what is no curve; perturb on demand (thesis 4.1); find repeated and shared
   //    components and take them apart.
@@ -38,6 +38,20 @@ Result<Encasement> encase(const std::vector<NamedCurve>& curves, const Region& r
   }
   run.decide_outcome();
   return run.take_result();
+}
+
+}  // namespace
+
+Result<Encasement> encase(const std::vector<NamedCurve>& curves, const Region& region,
+                          const EncaseOptions& options) {
+  Encaser run(curves, region, options);
+  return encase(run);
+}
+
+Result<Encasement> add_curves(const Encasement& earlier, const std::vector<NamedCurve>& more,
+                              const EncaseOptions& options) {
+  Encaser run(earlier, more, options);
+  return encase(run);
 }
 
 }  // namespace encase

@@ -52,6 +52,16 @@ Encaser::Encaser(const std::vector<NamedCurve>& input, const Region& region,
   result_.perturbation = options.perturbation;
 }
 
+Encaser::Encaser(const Encasement& earlier, const std::vector<NamedCurve>& more,
+                 const EncaseOptions& options)
+    : Encaser(earlier.input, earlier.region, options) {
+  earlier_ = EarlierEncasement(earlier);
+  perturbed_ = earlier.input.size();
+  result_.input.insert(result_.input.end(), more.begin(), more.end());
+  result_.seed = earlier.seed;
+  result_.perturbation = earlier.perturbation;
+}
+
 void Encaser::progress(const char* stage, double done) {
   if (options_.progress && budget_.empty() && !options_.progress(stage, done))
     budget_ = "the computation was cancelled";
@@ -98,16 +108,20 @@ Status Encaser::check_input() const {
                  std::to_string(curve.polynomial.degree()) + ", above the limit of " +
                  std::to_string(kMaxDegree));
   }
-  if (!(options_.perturbation >= 0) || !std::isfinite(options_.perturbation))
+  if (!(result_.perturbation >= 0) || !std::isfinite(result_.perturbation))
     return bad("the perturbation must be a number that is not negative");
   return std::nullopt;
 }
 
 void Encaser::separate_components() {
-  if (options_.perturbation > 0) {
-    std::mt19937_64 generator(options_.seed);
-    for (NamedCurve& curve : result_.input)
-      curve.polynomial = perturb(curve.polynomial, options_.perturbation, generator);
+  if (result_.perturbation > 0) {
+    std::mt19937_64 generator(result_.seed);
+    for (std::size_t k = 0; k < result_.input.size(); ++k) {
+      // Also for those that are perturbed already: the others get what they would all together.
+      Polynomial<2>& polynomial = result_.input[k].polynomial;
+      Polynomial<2> perturbed = perturb(polynomial, result_.perturbation, generator);
+      if (k >= perturbed_) polynomial = std::move(perturbed);
+    }
   }
   std::vector<Polynomial<2>> inputs;
   for (const NamedCurve& curve : result_.input) inputs.push_back(curve.polynomial);
@@ -154,6 +168,7 @@ void Encaser::use_region(const Region& region) {
   tiled_.clear();
   for (const FilteredPolynomial<2>& f : polynomials_) tiled_.emplace_back(f, root, kernel_);
   partition_ = std::make_unique<Partition>(polynomials_, tiled_, kernel_);
+  earlier_.match(result_.curves, region);
 }
 
 bool Encaser::open_region() {
@@ -312,7 +327,9 @@ void Encaser::isolate_crossings() {
     for (Box<2>& box : curve_roots_)
       if (box.width(0) > 0) box = root_around(box, whole);
     for (const MeetingPair& pair : meeting_pairs(shared))
-      isolate_pair(pair.curves, root_around(pair.hull, whole));
+      if (!earlier_.append_crossings(pair.curves, pair.hull, &partition_->crossings,
+                                     &result_.crossing_covers))
+        isolate_pair(pair.curves, root_around(pair.hull, whole));
     result_.shared_cover = std::move(shared.cover);
   } else {
     for (const TiledPolynomial& f : tiled_) curve_roots_.push_back(f.box());
@@ -384,6 +401,9 @@ void Encaser::find_critical_regions() {
   for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
     const Box<2>& root = curve_roots_[c];
     if (!(root.width(0) > 0)) continue;  // the curve has no zero in the region
+    if (earlier_.append_critical_regions(c, root, &partition_->critical_regions,
+                                         &result_.critical_covers))
+      continue;
     const SubdivisionLimits curve_limits =
         limits("finding critical regions", Unresolved::Kind::SingularPoint, root);
     const auto find = [&](TiledPolynomial& f) {

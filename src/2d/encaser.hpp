@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "2d/earlier_encasement.hpp"
 #include "2d/partition.hpp"
 #include "2d/splitting_lines.hpp"
 #include "common/run_clock.hpp"
@@ -17,10 +18,13 @@
 
 namespace encase {
 
-/// One run of `encase`; the members are called in the order of their numbers.
+/// One run of `encase` or `add_curves`; the members are called in the order of their numbers.
 class Encaser {
  public:
   Encaser(const std::vector<NamedCurve>& input, const Region& region, const EncaseOptions& options);
+  /// `earlier` must outlive this.
+  Encaser(const Encasement& earlier, const std::vector<NamedCurve>& more,
+          const EncaseOptions& options);
 
   Status check_input() const;    // 1. sanity
   void separate_components();    // 1. shared and repeated components
@@ -37,6 +41,7 @@ class Encaser {
  private:
   enum class Shape { Simple, Relaxable, Complex };
   static Shape shape_of(const CellAtHand& at_hand);
+  bool repeat_cut(CellAtHand& at_hand);
   bool find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* settled);
   bool find_cut_at_zone(const OpenCell& cell, SplittingLines& lines, CellState* settled);
   bool out_of_budget();
@@ -62,6 +67,8 @@ class Encaser {
   };
 
   const EncaseOptions& options_;
+  EarlierEncasement earlier_;
+  std::size_t perturbed_ = 0;  // input curves that are perturbed already
   RunClock clock_;
   Kernel kernel_;
   Encasement result_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "2d/encaser.hpp"
 #include "2d/loop_certificates.hpp"
@@ -51,6 +52,12 @@ bool Encaser::find_cut_at_zone(const OpenCell& cell, SplittingLines& lines, Cell
   return false;
 }
 
+/// Whether the cell at hand is cut by the line that cut it in the earlier encasement.
+bool Encaser::repeat_cut(CellAtHand& at_hand) {
+  const int cut = at_hand.cell().earlier_cut;
+  return cut >= 0 && at_hand.prove_only(earlier_.line(cut));
+}
+
 /// The line that splits the cell at hand next, or false and the state it is settled in.
 bool Encaser::find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* settled) {
   const OpenCell& cell = at_hand.cell();
@@ -79,6 +86,7 @@ bool Encaser::find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* se
 void Encaser::split_cells() {
   Partition& partition = *partition_;
   partition.fill(&first_cell_);
+  first_cell_.earlier_cut = earlier_.first_cut();
   CellAtHand at_hand(partition);
   SplittingLines lines(at_hand, options_.fast);
   std::vector<OpenCell> stack;
@@ -100,16 +108,21 @@ void Encaser::split_cells() {
                           : !budget_.empty();
     if (!stop) {
       at_hand.take(cell);
-      bool found = find_cut(at_hand, lines, &settled);
+      bool repeated = repeat_cut(at_hand);
+      bool found = repeated || find_cut(at_hand, lines, &settled);
       OpenCell negative(partition.memory()), positive(partition.memory());
       // If the order of the roots on the line cannot be proved: any other line.
       if (found && !partition.apply(cell, &at_hand.cut(), &negative, &positive)) {
         settled = CellState::Undecided;
+        repeated = false;
         found = lines.find_any() && partition.apply(cell, &at_hand.cut(), &negative, &positive);
       }
       if (found) {
         ++result_.statistics.splits;
         negative.sketches = positive.sketches = at_hand.sketches();
+        if (repeated)
+          std::tie(negative.earlier_cut, positive.earlier_cut) =
+              earlier_.next_cuts(cell.earlier_cut);
         stack.push_back(std::move(positive));
         stack.push_back(std::move(negative));
         continue;

@@ -47,6 +47,7 @@ struct OpenCell {
   int least_cells =
       1 << 30;        ///< the least that `Cut::least_cells` has been for it or its ancestors
   int stall = 0;      ///< levels since that has last fallen
+  int earlier_cut = -1;  ///< of the EarlierEncasement, that cut the same cell; -1 for none
   int sketches = -1;  ///< those of `CellAtHand` that were made for an ancestor; -1 for none
 
   int size() const { return static_cast<int>(edges.size()); }
