@@ -28,8 +28,7 @@ class EarlierEncasement {
   /// The cover of a pair, with its crossings appended to `crossings`, if there is one that leaves
   /// nothing unresolved and covers `box`.
   bool append_crossings(const std::array<int, 2>& curves, const Box<2>& box,
-                        std::vector<Crossing>* crossings,
-                        std::vector<CrossingCover>* covers) const;
+                        std::vector<Crossing>* crossings, std::vector<CrossingCover>* covers) const;
   /// Likewise of a curve, with its critical regions.
   bool append_critical_regions(int curve, const Box<2>& box, std::vector<CriticalRegion>* regions,
                                std::vector<CriticalCover>* covers) const;

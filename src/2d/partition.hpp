@@ -45,10 +45,10 @@ struct OpenCell {
   int parent = -1;        ///< node of the history that made it, -1 for the region used
   bool positive = false;  ///< on the positive side of that node's line
   int least_cells =
-      1 << 30;        ///< the least that `Cut::least_cells` has been for it or its ancestors
-  int stall = 0;      ///< levels since that has last fallen
+      1 << 30;           ///< the least that `Cut::least_cells` has been for it or its ancestors
+  int stall = 0;         ///< levels since that has last fallen
   int earlier_cut = -1;  ///< of the EarlierEncasement, that cut the same cell; -1 for none
-  int sketches = -1;  ///< those of `CellAtHand` that were made for an ancestor; -1 for none
+  int sketches = -1;     ///< those of `CellAtHand` that were made for an ancestor; -1 for none
 
   int size() const { return static_cast<int>(edges.size()); }
   int begin_of(int edge) const { return edge == 0 ? 0 : edges[edge - 1].end; }
