@@ -229,21 +229,26 @@ struct Encasement {
   std::vector<Unresolved> degenerate;
   std::vector<Unresolved> undecided;
   Statistics statistics;
-  double seconds = 0;  ///< CPU (elapsed, below a millisecond); not part of the result's bytes
+  /// CPU, of all threads (elapsed, below a millisecond); not part of the result's bytes.
+  double seconds = 0;
 };
 
 struct EncaseOptions {
   bool relaxed = false;  ///< accept relaxed cells wherever they are simple
   bool fast = false;     ///< try fewer splitting lines: less time, more cells
   int max_cells = 100000;
-  double max_seconds = 60;      ///< CPU seconds of the calling thread
+  double max_seconds = 60;  ///< CPU seconds, of all threads together
+  /// How many threads may work, the caller's among them (those of oneTBB; without it one works). Of
+  /// at most two curves one works. The result is the same for any number, to the byte, unless
+  /// seconds run out or `progress` cancels.
+  int threads = 1;
   int max_bits = 848;           ///< precision cap of the MPFR rung
   int start_bits = 53;          ///< 53: doubles first; more: MPFR from there
   int relax_after_splits = 24;  ///< levels without progress before a cell may be relaxed
   double perturbation = 0;      ///< delta > 0 perturbs every coefficient
   std::uint64_t seed = 1;
   /// Called now and then with a stage and how much of it is done (0 to 1, or -1 where unknown);
-  /// false cancels, and what is left becomes undecided.
+  /// false cancels, and what is left becomes undecided. Any of the threads calls it, one at a time.
   std::function<bool(const char* stage, double done)> progress;
 };
 

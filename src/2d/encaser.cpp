@@ -12,6 +12,7 @@
 #include "2d/shared_leaves.hpp"
 #include "common/components.hpp"
 #include "common/isolate_roots.hpp"
+#include "common/parallel.hpp"
 #include "common/perturb.hpp"
 
 namespace encase {
@@ -43,7 +44,7 @@ double smallest_part(Unresolved::Kind kind) {
 
 Encaser::Encaser(const std::vector<NamedCurve>& input, const Region& region,
                  const EncaseOptions& options)
-    : options_(options) {
+    : options_(options), threads_(std::max(options.threads, 1)), clock_(threads_) {
   kernel_.start_bits = std::max(options.start_bits, Kernel::kDoubleBits);
   kernel_.max_bits = std::max(options.max_bits, kernel_.start_bits);
   result_.input = input;
@@ -62,9 +63,18 @@ Encaser::Encaser(const Encasement& earlier, const std::vector<NamedCurve>& more,
   result_.perturbation = earlier.perturbation;
 }
 
+void Encaser::use_up_budget(const std::string& reason) {
+  std::lock_guard lock(budget_mutex_);
+  if (is_used_up_) return;
+  budget_ = reason;
+  is_used_up_ = true;
+}
+
 void Encaser::progress(const char* stage, double done) {
-  if (options_.progress && budget_.empty() && !options_.progress(stage, done))
-    budget_ = "the computation was cancelled";
+  if (!options_.progress || is_used_up_) return;
+  const std::unique_lock lock(progress_mutex_, std::try_to_lock);
+  if (!lock || is_used_up_) return;  // another thread is telling, or was told to stop
+  if (!options_.progress(stage, done)) use_up_budget("the computation was cancelled");
 }
 
 std::function<bool()> Encaser::stop(const char* stage) {
@@ -74,22 +84,44 @@ std::function<bool()> Encaser::stop(const char* stage) {
   };
 }
 
-SubdivisionLimits Encaser::limits(const char* stage, Unresolved::Kind kind, const Box<2>& root) {
+void Encaser::run(Tasks& tasks, const std::function<void(int)>& task) {
+  if (threads_ == 1 || tasks.count <= 1) {
+    for (int i = 0; i < tasks.count; ++i, ++tasks.done) task(i);
+    return;
+  }
+  const RunClock::SharedOut shared_out(clock_);
+  parallel_for(tasks.count, threads_, [&](int i) {
+    const RunClock::Shift shift(clock_);
+    try {
+      task(i);
+    } catch (...) {
+      use_up_budget(
+          "something failed");  // so that the others end soon; what was thrown is the answer
+      throw;
+    }
+    ++tasks.done;
+  });
+}
+
+SubdivisionLimits Encaser::limits(Tasks& tasks, Unresolved::Kind kind, const Box<2>& root) {
   SubdivisionLimits limits;
   // A root may be smaller than the whole; the smallest boxes are not.
   const double whole = tiled_.front().box().largest_width();
   limits.smallest = smallest_part(kind) * (whole / root.largest_width());
-  limits.stop = stop(stage);
+  limits.stop = [this, &tasks] {
+    progress(tasks.stage, tasks.count > 2 ? static_cast<double>(tasks.done) / tasks.count : -1);
+    return out_of_budget();
+  };
   return limits;
 }
 
 bool Encaser::out_of_budget() {
-  if (!budget_.empty()) return true;
+  if (is_used_up_) return true;
   if (static_cast<int>(finished_.size()) >= options_.max_cells)
-    budget_ = "the limit of " + std::to_string(options_.max_cells) + " cells was reached";
+    use_up_budget("the limit of " + std::to_string(options_.max_cells) + " cells was reached");
   else if (clock_.exceeds(options_.max_seconds))
-    budget_ = "the limit of " + decimal(options_.max_seconds) + " CPU seconds was reached";
-  return !budget_.empty();
+    use_up_budget("the limit of " + decimal(options_.max_seconds) + " CPU seconds was reached");
+  return is_used_up_;
 }
 
 Status Encaser::check_input() const {
@@ -166,7 +198,9 @@ void Encaser::use_region(const Region& region) {
   for (int k = 0; k < region.side_count(); ++k) sides_.push_back(region.side(k));
   const Box<2> root = subdivision_root(bounds_);
   tiled_.clear();
-  for (const FilteredPolynomial<2>& f : polynomials_) tiled_.emplace_back(f, root, kernel_);
+  tile_kernels_.resize(polynomials_.size(), kernel_.fresh());
+  for (std::size_t c = 0; c < polynomials_.size(); ++c)
+    tiled_.emplace_back(polynomials_[c], root, tile_kernels_[c]);
   partition_ = std::make_unique<Partition>(polynomials_, tiled_, kernel_);
   earlier_.match(result_.curves, region);
 }
@@ -244,6 +278,7 @@ void Encaser::give_up_on_region() {
   }
   finished_.push_back({std::move(cell), CellState::Undecided, {}});
   budget_ = "the curves' crossings with the region's sides could not be told apart";
+  is_used_up_ = true;
   finish_cells();
 }
 
@@ -269,23 +304,22 @@ std::vector<Box<2>> Encaser::clusters_of(const std::vector<Box<2>>& unresolved) 
   return clusters;
 }
 
-void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
-                     Unresolved::Kind kind, double smallest, std::vector<int> curves) {
-  if (unresolved.empty()) return;
+void Encaser::report(const Leftover& left, Unresolved::Kind kind, std::vector<int> curves) {
+  if (left.unresolved.empty()) return;
   std::string names;
   for (const int c : curves)
     names += (names.empty() ? "'" : " and '") + result_.curves[c].name + "'";
-  for (const Box<2>& box : clusters_of(unresolved)) {
+  for (const Box<2>& box : clusters_of(left.unresolved)) {
     Unresolved entry;
     entry.box = box;
     entry.has_box = true;
     entry.curves = curves;
     // Halved as far as sizes go, as opposed to left over when the number of boxes ran out.
     bool at_cap = true;
-    for (const Box<2>& leaf : unresolved)
+    for (const Box<2>& leaf : left.unresolved)
       if (box.contains(leaf))
-        at_cap = at_cap && (leaf.width(0) <= smallest * root.width(0) ||
-                            leaf.width(1) <= smallest * root.width(1));
+        at_cap = at_cap && (leaf.width(0) <= left.smallest * left.root.width(0) ||
+                            leaf.width(1) <= left.smallest * left.root.width(1));
     if (at_cap) {
       entry.kind = kind;
       entry.reason = kind == Unresolved::Kind::Contact
@@ -294,7 +328,7 @@ void Encaser::report(const std::vector<Box<2>>& unresolved, const Box<2>& root,
       result_.degenerate.push_back(std::move(entry));
     } else {
       entry.kind = Unresolved::Kind::Budget;
-      entry.reason = (budget_.empty() ? "the limit on boxes was reached" : budget_) +
+      entry.reason = (left.stopped ? budget_ : "the limit on boxes was reached") +
                      (kind == Unresolved::Kind::Contact
                           ? " before curves " + names + " were told apart"
                           : " before the critical points of curve " + names + " were settled");
@@ -326,47 +360,70 @@ void Encaser::isolate_crossings() {
     curve_roots_ = hulls_of_curves(shared, n);
     for (Box<2>& box : curve_roots_)
       if (box.width(0) > 0) box = root_around(box, whole);
+    std::vector<Pair> pairs;
     for (const MeetingPair& pair : meeting_pairs(shared))
       if (!earlier_.append_crossings(pair.curves, pair.hull, &partition_->crossings,
                                      &result_.crossing_covers))
-        isolate_pair(pair.curves, root_around(pair.hull, whole));
+        pairs.push_back({pair.curves, root_around(pair.hull, whole)});
+    isolate_pairs(pairs);
     result_.shared_cover = std::move(shared.cover);
   } else {
     for (const TiledPolynomial& f : tiled_) curve_roots_.push_back(f.box());
-    if (n == 2) isolate_pair({0, 1}, tiled_[0].box());
+    if (n == 2) isolate_pairs({{{0, 1}, tiled_[0].box()}});
   }
   report_concurrency();
 }
 
-/// All common zeros of two curves in the part of a box that lies in the region.
-void Encaser::isolate_pair(const std::array<int, 2>& curves, const Box<2>& root) {
-  const SubdivisionLimits pair_limits =
-      limits("isolating crossings", Unresolved::Kind::Contact, root);
-  const auto isolate = [&](TiledPolynomial& f, TiledPolynomial& g) {
-    return isolate_roots(f, g, sides_, pair_limits, kernel_);
+/// All common zeros of pairs of curves, each in the part of a box that lies in the region.
+void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
+  struct Isolated {
+    RootIsolation<2> roots;
+    double smallest;
+    bool stopped;
+    Kernel kernel;
   };
-  const auto [i, j] = curves;
-  RootIsolation<2> roots;
-  if (root == tiled_[i].box()) {
-    roots = isolate(tiled_[i], tiled_[j]);
-  } else {
-    TiledPolynomial f(polynomials_[i], root, kernel_), g(polynomials_[j], root, kernel_);
-    roots = isolate(f, g);
+  std::vector<Isolated> isolated(pairs.size());
+  Tasks tasks{"isolating crossings", static_cast<int>(pairs.size())};
+  run(tasks, [&](int index) {
+    const auto& [curves, root] = pairs[index];
+    const auto [i, j] = curves;
+    Isolated& result = isolated[index];
+    result.kernel = kernel_.fresh();
+    const SubdivisionLimits pair_limits = limits(tasks, Unresolved::Kind::Contact, root);
+    const auto isolate = [&](TiledPolynomial& f, TiledPolynomial& g) {
+      return isolate_roots(f, g, sides_, pair_limits, result.kernel);
+    };
+    if (root == tiled_[i].box()) {
+      result.roots = isolate(tiled_[i], tiled_[j]);
+    } else {
+      TiledPolynomial f(polynomials_[i], root, result.kernel),
+          g(polynomials_[j], root, result.kernel);
+      result.roots = isolate(f, g);
+    }
+    result.smallest = pair_limits.smallest;
+    result.stopped = is_used_up_;
+  });
+  for (std::size_t index = 0; index < pairs.size(); ++index) {
+    const std::array<int, 2>& curves = pairs[index].curves;
+    Isolated& from = isolated[index];
+    RootIsolation<2>& roots = from.roots;
+    kernel_.add(from.kernel);
+    result_.statistics.root_boxes += roots.boxes;
+    const int first = static_cast<int>(partition_->crossings.size());
+    for (std::size_t k = 0; k < roots.roots.size(); ++k) {
+      Crossing crossing;
+      crossing.curves = curves;
+      crossing.box = roots.roots[k];
+      crossing.point = crossing.box.center();
+      crossing.rounded = roots.rounded[k];
+      partition_->crossings.push_back(crossing);
+    }
+    for (int& token : roots.tokens)
+      if (token >= 0) token += first;
+    report({roots.unresolved, roots.root_box, from.smallest, from.stopped},
+           Unresolved::Kind::Contact, {curves[0], curves[1]});
+    result_.crossing_covers.push_back({curves, roots.root_box, std::move(roots.tokens)});
   }
-  result_.statistics.root_boxes += roots.boxes;
-  const int first = static_cast<int>(partition_->crossings.size());
-  for (std::size_t k = 0; k < roots.roots.size(); ++k) {
-    Crossing crossing;
-    crossing.curves = curves;
-    crossing.box = roots.roots[k];
-    crossing.point = crossing.box.center();
-    crossing.rounded = roots.rounded[k];
-    partition_->crossings.push_back(crossing);
-  }
-  for (int& token : roots.tokens)
-    if (token >= 0) token += first;
-  report(roots.unresolved, roots.root_box, Unresolved::Kind::Contact, pair_limits.smallest, {i, j});
-  result_.crossing_covers.push_back({curves, roots.root_box, std::move(roots.tokens)});
 }
 
 void Encaser::report_concurrency() {
@@ -398,36 +455,57 @@ void Encaser::report_concurrency() {
 }
 
 void Encaser::find_critical_regions() {
-  for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c) {
+  std::vector<int> curves;
+  for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c)
+    if (curve_roots_[c].width(0) > 0 &&  // others have no zero in the region
+        !earlier_.append_critical_regions(c, curve_roots_[c], &partition_->critical_regions,
+                                          &result_.critical_covers))
+      curves.push_back(c);
+  struct Found {
+    CriticalRegions regions;
+    std::vector<Saddle> saddles;
+    double smallest;
+    bool stopped;
+    Kernel kernel;
+  };
+  std::vector<Found> found(curves.size());
+  Tasks tasks{"finding critical regions", static_cast<int>(curves.size())};
+  run(tasks, [&](int index) {
+    const int c = curves[index];
     const Box<2>& root = curve_roots_[c];
-    if (!(root.width(0) > 0)) continue;  // the curve has no zero in the region
-    if (earlier_.append_critical_regions(c, root, &partition_->critical_regions,
-                                         &result_.critical_covers))
-      continue;
-    const SubdivisionLimits curve_limits =
-        limits("finding critical regions", Unresolved::Kind::SingularPoint, root);
+    Found& result = found[index];
+    result.kernel = kernel_.fresh();
+    const SubdivisionLimits curve_limits = limits(tasks, Unresolved::Kind::SingularPoint, root);
     const auto find = [&](TiledPolynomial& f) {
-      return critical_regions(f, c, sides_, curve_limits, kernel_);
+      return critical_regions(f, c, sides_, curve_limits, result.kernel);
     };
-    CriticalRegions found;
     if (root == tiled_[c].box()) {
-      found = find(tiled_[c]);
+      result.regions = find(tiled_[c]);
     } else {
-      TiledPolynomial f(polynomials_[c], root, kernel_);
-      found = find(f);
+      TiledPolynomial f(polynomials_[c], root, result.kernel);
+      result.regions = find(f);
     }
-    result_.statistics.critical_boxes += found.boxes;
+    append_saddles(tiled_[c], c, result.regions.other_points, &result.saddles);
+    result.smallest = curve_limits.smallest;
+    result.stopped = is_used_up_;
+  });
+  std::vector<Saddle>& saddles = partition_->saddles;
+  for (std::size_t index = 0; index < curves.size(); ++index) {
+    const int c = curves[index];
+    CriticalRegions& regions = found[index].regions;
+    kernel_.add(found[index].kernel);
+    result_.statistics.critical_boxes += regions.boxes;
     const int first = static_cast<int>(partition_->critical_regions.size());
-    for (int& token : found.tokens)
+    for (int& token : regions.tokens)
       if (token >= 0) token += first;
-    for (CriticalRegion& region : found.regions)
+    for (CriticalRegion& region : regions.regions)
       partition_->critical_regions.push_back(std::move(region));
-    append_saddles(tiled_[c], c, found.other_points, &partition_->saddles);
-    report(found.unresolved, found.root_box, Unresolved::Kind::SingularPoint, curve_limits.smallest,
-           {c});
-    result_.critical_covers.push_back({c, found.root_box, std::move(found.tokens)});
+    saddles.insert(saddles.end(), found[index].saddles.begin(), found[index].saddles.end());
+    report({regions.unresolved, regions.root_box, found[index].smallest, found[index].stopped},
+           Unresolved::Kind::SingularPoint, {c});
+    result_.critical_covers.push_back({c, regions.root_box, std::move(regions.tokens)});
   }
-  std::stable_sort(partition_->saddles.begin(), partition_->saddles.end(),
+  std::stable_sort(saddles.begin(), saddles.end(),
                    [](const Saddle& a, const Saddle& b) { return a.reach < b.reach; });
 }
 
@@ -484,6 +562,7 @@ void Encaser::decide_outcome() {
                                                   : Outcome::Certified;
   for (const Cell& cell : result_.cells)
     if (cell.state == CellState::Undecided) result_.outcome = Outcome::Undecided;
+  for (const Kernel& kernel : tile_kernels_) kernel_.add(kernel);
   Statistics& s = result_.statistics;
   s.candidate_lines = partition_->lines_tried;
   s.decisions = kernel_.decisions;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,18 +46,37 @@ class Encaser {
   bool repeat_cut(CellAtHand& at_hand);
   bool find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* settled);
   bool find_cut_at_zone(const OpenCell& cell, SplittingLines& lines, CellState* settled);
+  // These three may be called by several threads.
   bool out_of_budget();
   /// Tells the caller's progress callback; a refusal uses the budget up.
   void progress(const char* stage, double done);
+  void use_up_budget(const std::string& reason);
+  /// A step's tasks, which several threads do. They are the same, and have the same results, for
+  /// any number of threads.
+  struct Tasks {
+    const char* stage;
+    int count;
+    std::atomic<int> done = 0;
+  };
+  void run(Tasks& tasks, const std::function<void(int index)>& task);
   bool open_polygon();
   bool open_plane();
-  SubdivisionLimits limits(const char* stage, Unresolved::Kind kind, const Box<2>& root);
+  SubdivisionLimits limits(Tasks& tasks, Unresolved::Kind kind, const Box<2>& root);
   std::function<bool()> stop(const char* stage);
-  void isolate_pair(const std::array<int, 2>& curves, const Box<2>& root);
+  struct Pair {
+    std::array<int, 2> curves;
+    Box<2> root;
+  };
+  void isolate_pairs(const std::vector<Pair>& pairs);
   void use_region(const Region& region);
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
-  void report(const std::vector<Box<2>>& unresolved, const Box<2>& root, Unresolved::Kind kind,
-              double smallest, std::vector<int> curves);
+  struct Leftover {
+    const std::vector<Box<2>>& unresolved;
+    const Box<2>& root;
+    double smallest;  ///< part of the root's width beyond which boxes are not halved
+    bool stopped;     ///< the budget had run out
+  };
+  void report(const Leftover& left, Unresolved::Kind kind, std::vector<int> curves);
   void count_pairs();
   void report_concurrency();
   Cell finish(const OpenCell& open, CellState state, int id);
@@ -69,10 +90,12 @@ class Encaser {
   const EncaseOptions& options_;
   EarlierEncasement earlier_;
   std::size_t perturbed_ = 0;  // input curves that are perturbed already
+  const int threads_;
   RunClock clock_;
   Kernel kernel_;
   Encasement result_;
   std::vector<FilteredPolynomial<2>> polynomials_;
+  std::vector<Kernel> tile_kernels_;    // one a curve, so that all threads can have tiles made
   std::vector<TiledPolynomial> tiled_;  // the same, over the box of region_used
   std::vector<Line> sides_;             // of region_used
   Box<2> bounds_;                       // of region_used
@@ -81,7 +104,9 @@ class Encaser {
   OpenCell first_cell_;
   std::vector<Finished> finished_;
   std::vector<LoopCertificate> certificates_;  // of the cell at hand
-  std::string budget_;                         // the sentence that tells which ran out
+  std::mutex progress_mutex_, budget_mutex_;
+  std::atomic<bool> is_used_up_ = false;
+  std::string budget_;  // the sentence that tells which ran out; empty unless is_used_up_
 };
 
 }  // namespace encase

@@ -14,7 +14,7 @@ namespace encase {
 static_assert(std::numeric_limits<double>::is_iec559 && FLT_EVAL_METHOD == 0);
 
 /// The precision ladder of one computation and its counters. Precision is never global: what climbs
-/// the ladder takes the kernel as an argument. Not shared between threads.
+/// the ladder takes the kernel as an argument. Not shared between threads: each task has its own.
 struct Kernel {
   static constexpr int kDoubleBits = 53;
   /// The processor's extended format where it has one (x87), a quick step before MPFR.
@@ -44,6 +44,21 @@ struct Kernel {
       ++decisions.by_double;
     else
       ++decisions.by_mpfr;
+  }
+
+  /// The same ladder, with counters at zero.
+  Kernel fresh() const {
+    Kernel kernel;
+    kernel.start_bits = start_bits;
+    kernel.max_bits = max_bits;
+    return kernel;
+  }
+  /// Adds what another one has counted.
+  void add(const Kernel& other) {
+    decisions += other.decisions;
+    expansions += other.expansions;
+    mpfr_expansions += other.mpfr_expansions;
+    restrictions += other.restrictions;
   }
 };
 

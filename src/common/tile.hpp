@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -57,10 +58,11 @@ CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, 
                      double error, double relative);
 
 /// A polynomial with tiles that cover a box: one where its degree is low or the box is small, else
-/// a quadtree of them, four of which are made when one is first asked for. Not shared between
-/// threads.
+/// a quadtree of them, four of which are made when one is first asked for. May be asked by several
+/// threads; a tile, and how often the kernel counts, does not depend on who asks when.
 class TiledPolynomial {
  public:
+  /// `kernel` is used while a tile is made; nothing else may use it at the same time.
   TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel);
   TiledPolynomial(TiledPolynomial&&) noexcept;
   ~TiledPolynomial();
@@ -88,15 +90,16 @@ class TiledPolynomial {
   struct Expansion;
   struct Node {
     Point<2> center;
-    int first_child = -1;  ///< of four: bit 0 the upper half in x, bit 1 in y
+    /// Four of them, once they are complete: bit 0 the upper half in x, bit 1 in y.
+    std::atomic<Node*> children{nullptr};
+    std::atomic<const Tile*> tile{nullptr};  ///< in place of children; complete too
     int depth = 0;
-    Tile* tile = nullptr;
     Expansion* expansion = nullptr;  ///< where a tile would not serve, until there are children
     Box<2> box;
   };
   struct Workspace;
-  void develop(int node);
-  void halve(Expansion& parent, int first_child);
+  void develop(Node& node);
+  void halve(Expansion& parent, Node* children);
   bool serves(Node& node, Tile& tile, double dropped);
   double make(const Box<2>& box, int bits, bool in_tree, Tile* tile, Expansion* expansion);
   void expand_directly(const Tile& tile, bool in_tree, Expansion* expansion);
@@ -106,7 +109,6 @@ class TiledPolynomial {
   const FilteredPolynomial<2>* f_;
   Kernel* kernel_;
   Box<2> root_;
-  std::vector<Node> nodes_;
   std::unique_ptr<Workspace> workspace_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 
 #include "common/paired_coefficients.hpp"
@@ -83,7 +84,8 @@ struct TiledPolynomial::Expansion {
   double halving_loss = 0;  ///< of the halvings since, and what underflows
 };
 
-/// What the expansions of one polynomial share, and the memory of its tiles.
+/// What the expansions of one polynomial share, and the memory of its tiles. Whoever changes it, or
+/// what a node has, holds the mutex.
 struct TiledPolynomial::Workspace {
   struct Column {
     double center, half;
@@ -146,6 +148,15 @@ struct TiledPolynomial::Workspace {
     for (PairedCoefficients& half : halves) half = coefficients();
   }
 
+  Node* four_nodes() {
+    nodes.push_back(std::make_unique<Node[]>(4));
+    return nodes.back().get();
+  }
+
+  std::mutex mutex;
+  Node root;
+  std::vector<std::unique_ptr<Node[]>> nodes;
+
   int degree;
   std::vector<std::unique_ptr<EightDoubles[]>> blocks;
   PairedCoefficients original, scratch;  ///< row i: the coefficients of x^i
@@ -163,11 +174,7 @@ struct TiledPolynomial::Workspace {
 };
 
 TiledPolynomial::TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel)
-    : f_(&f),
-      kernel_(&kernel),
-      root_(box),
-      nodes_(1),
-      workspace_(std::make_unique<Workspace>(f.degree())) {
+    : f_(&f), kernel_(&kernel), root_(box), workspace_(std::make_unique<Workspace>(f.degree())) {
   const std::size_t n = static_cast<std::size_t>(f.degree());
   PairedCoefficients& original = workspace_->original;
   const std::size_t stride = static_cast<std::size_t>(original.stride);
@@ -176,46 +183,43 @@ TiledPolynomial::TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& b
     std::copy_n(high + i * (n + 1), n + 1 - i, original.high() + i * stride);
     std::copy_n(low + i * (n + 1), n + 1 - i, original.low() + i * stride);
   }
-  nodes_[0].box = box;
-  nodes_[0].center = box.center();
+  workspace_->root.box = box;
+  workspace_->root.center = box.center();
 }
 
 TiledPolynomial::TiledPolynomial(TiledPolynomial&&) noexcept = default;
 TiledPolynomial::~TiledPolynomial() = default;
 
 const Tile& TiledPolynomial::at(const Point<2>& point) {
-  int node = 0;
-  while (!nodes_[node].tile) {
-    if (nodes_[node].first_child < 0) {
-      develop(node);
-      continue;
-    }
-    const Point<2>& center = nodes_[node].center;
-    node = nodes_[node].first_child + (point[0] > center[0]) + 2 * (point[1] > center[1]);
+  Node* node = &workspace_->root;
+  for (;;) {
+    if (const Tile* tile = node->tile.load(std::memory_order_acquire)) return *tile;
+    if (Node* children = node->children.load(std::memory_order_acquire))
+      node = children + (point[0] > node->center[0]) + 2 * (point[1] > node->center[1]);
+    else
+      develop(*node);
   }
-  return *nodes_[node].tile;
 }
 
 void TiledPolynomial::expand(const Box<2>& box, int bits, Tile* tile) {
+  std::lock_guard lock(workspace_->mutex);
   make(box, bits, false, tile, &workspace_->local);
 }
 
 /// Gives a node a tile, or children.
-void TiledPolynomial::develop(int index) {
+void TiledPolynomial::develop(Node& node) {
   Workspace& w = *workspace_;
-  Expansion* expansion = std::exchange(nodes_[index].expansion, nullptr);
+  std::lock_guard lock(w.mutex);
+  if (node.tile || node.children) return;  // another thread was first
+  Expansion* expansion = std::exchange(node.expansion, nullptr);
   if (!expansion) {
-    Node& node = nodes_[index];
     Tile* tile = w.tile();
     const double dropped = make(node.box, kernel_->start_bits, node.depth > 0, tile, &w.local);
     if (serves(node, *tile, dropped)) return;
   }
-  const int first = static_cast<int>(nodes_.size());
-  nodes_[index].first_child = first;
-  nodes_.resize(nodes_.size() + 4);
-  const Node& node = nodes_[index];
+  Node* children = w.four_nodes();
   for (int k = 0; k < 4; ++k) {
-    Node& child = nodes_[first + k];
+    Node& child = children[k];
     child.depth = node.depth + 1;
     child.box = node.box;
     for (int i = 0; i < 2; ++i) ((k >> i) % 2 ? child.box.lo : child.box.hi)[i] = node.center[i];
@@ -223,24 +227,25 @@ void TiledPolynomial::develop(int index) {
   }
   if (f_->degree() <= kMaxHalved && kernel_->start_bits <= Kernel::kDoubleBits &&
       std::isfinite((expansion ? expansion : &w.local)->sum))
-    halve(expansion ? *expansion : w.local, first);
+    halve(expansion ? *expansion : w.local, children);
   if (expansion) w.give_back(expansion);
+  node.children.store(children, std::memory_order_release);
 }
 
 /// Whether the tile just made serves for the node: then it is kept.
 bool TiledPolynomial::serves(Node& node, Tile& tile, double dropped) {
   if (node.depth < kMaxDepth && !tile_serves(tile, dropped)) return false;
-  node.tile = &tile;
   workspace_->keep();
+  node.tile.store(&tile, std::memory_order_release);
   return true;
 }
 
 /// Halves an expansion along both axes, for the four children of its node, if their coordinates are
 /// exactly those of quarters. A child that would lose too much gets nothing: it is made from the
 /// coefficients of f if it is asked for.
-void TiledPolynomial::halve(Expansion& parent, int first_child) {
+void TiledPolynomial::halve(Expansion& parent, Node* children) {
   for (int k = 0; k < 4; ++k)
-    if (!is_quarter(nodes_[first_child + k].box, k, parent.center, parent.half)) return;
+    if (!is_quarter(children[k].box, k, parent.center, parent.half)) return;
   const int n = f_->degree();
   Workspace& w = *workspace_;
   PairedCoefficients& c = parent.coefficients;
@@ -258,7 +263,7 @@ void TiledPolynomial::halve(Expansion& parent, int first_child) {
     const double losses = (loss + halving_loss(n, largest[first], parent.sum)) * kUp;
     for (int second = 0; second < 2; ++second) {
       const int upper = parent.rows_axis == 0 ? first + 2 * second : 2 * first + second;
-      Node& node = nodes_[first_child + upper];
+      Node& node = children[upper];
       Expansion& e = *child[second];
       if (!done) {
         w.give_back(&e);
