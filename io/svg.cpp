@@ -13,6 +13,8 @@
 
 #include "2d/trace.hpp"
 #include "encase/arrangement.hpp"
+#include "svg_labels.hpp"
+#include "svg_view.hpp"
 
 namespace encase {
 namespace {
@@ -30,143 +32,20 @@ constexpr const char* kUndecided = "#7b2cbf";
 constexpr double kRing = 7;         ///< radius of a ring around what is small
 constexpr double kVisible = 8;      ///< an extent that needs no ring
 constexpr double kTolerance = 0.1;  ///< pixels between a curve and what is drawn
-constexpr double kFont = 12;
-constexpr double kLetter = 6.7;  ///< about how wide a letter of that size is
 constexpr double kLegendRow = 20;
 
 const char* colour(int curve) { return kColours[curve % kColours.size()]; }
 const char* dash(int curve) { return kDashes[curve / kColours.size() % kDashes.size()]; }
 
-/// A coordinate in pixels: a hundredth is finer than anyone sees.
-std::string pixels(double value) {
-  if (!std::isfinite(value)) return "0";
-  std::string text = fmt::format("{:.2f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
-}
-
-/// Text for XML: markup escaped, what XML does not allow replaced.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  }
-  return out;
-}
-
-bool continues_letter(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
-
-int letters(std::string_view text) {
-  return static_cast<int>(
-      std::count_if(text.begin(), text.end(), [](char c) { return !continues_letter(c); }));
-}
-
-/// The first letters of a text, for legends.
-std::string shortened(const std::string& text, int most) {
-  if (letters(text) <= most) return text;
-  std::size_t end = 0;
-  for (int seen = 0; end < text.size(); ++end)
-    if (!continues_letter(text[end]) && ++seen == most) break;
-  return text.substr(0, end) + "…";
-}
-
-/// The marks of an axis: multiples of 1, 2 or 5 times a power of ten, with texts of equal
-/// precision.
-struct Ticks {
-  std::vector<double> values;
-  std::vector<std::string> texts;
-};
-
-Ticks make_ticks(double lo, double hi, double length) {
-  Ticks ticks;
-  const double wanted = std::clamp(length / 90, 2.0, 9.0);
-  const double raw = (hi - lo) / wanted;
-  if (!(raw > 0) || !std::isfinite(raw)) return ticks;
-  const int exponent = static_cast<int>(std::floor(std::log10(raw)));
-  const double power = std::pow(10.0, exponent);
-  double step = 10 * power;
-  for (const double unit : {1.0, 2.0, 5.0})
-    if (unit * power >= raw) {
-      step = unit * power;
-      break;
-    }
-  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step * 1.000001))));
-  const double largest = std::max(std::fabs(lo), std::fabs(hi));
-  const double slack = 1e-6 * step;
-  for (double k = std::ceil((lo - slack) / step); k * step <= hi + slack; ++k) {
-    const double value = k * step;
-    if (value == ticks.values.size() && ticks.values.size() > 50) break;
-    ticks.values.push_back(value);
-    std::string text;
-    if (largest < 1e6 && decimals <= 6)
-      text = fmt::format("{:.{}f}", std::fabs(value), decimals);
-    else
-      text = fmt::format(
-          "{:.{}g}", std::fabs(value),
-          std::clamp(static_cast<int>(std::ceil(std::log10(largest / step))) + 2, 2, 17));
-    // The sign of a number, not a hyphen.
-    ticks.texts.push_back(
-        (value < 0 && text.find_first_of("123456789") != text.npos ? "\u2212" : "") + text);
-    if (ticks.values.size() > 50) break;
-  }
-  return ticks;
-}
-
-/// The map from input coordinates to pixels.
-struct View {
-  Box<2> box;
-  double scale_x = 1, scale_y = 1;
-  double left = 0, top = 0;
-  double width = 0, height = 0;
-
-  double x(double value) const { return left + (value - box.lo[0]) * scale_x; }
-  double y(double value) const { return top + (box.hi[1] - value) * scale_y; }
-  std::string point(const Point<2>& p) const { return pixels(x(p[0])) + " " + pixels(y(p[1])); }
-
-  /// "M x y L ..." without points that fall on the one before.
-  std::string path(const std::vector<Point<2>>& points, bool closed) const {
-    std::string out, last;
-    for (const Point<2>& p : points) {
-      std::string here = point(p);
-      if (here == last) continue;
-      out += last.empty() ? "M" : "L";
-      out += here;
-      last = std::move(here);
-    }
-    if (closed && !out.empty()) out += "Z";
-    return out;
-  }
-  std::string rectangle(const Box<2>& b) const {
-    const double x0 = x(b.lo[0]), y0 = y(b.hi[1]);
-    return "M" + pixels(x0) + " " + pixels(y0) + "h" + pixels(x(b.hi[0]) - x0) + "v" +
-           pixels(y(b.lo[1]) - y0) + "h" + pixels(x0 - x(b.hi[0])) + "Z";
-  }
-  /// The larger side of a box in pixels.
-  double extent(const Box<2>& b) const {
-    return std::max(b.width(0) * scale_x, b.width(1) * scale_y);
-  }
-  Point<2> center(const Box<2>& b) const { return {x(b.center()[0]), y(b.center()[1])}; }
-};
-
 class Picture {
  public:
   Picture(const Encasement& encasement, const SvgOptions& options)
       : e_(encasement), options_(options) {
-    if (!options_.faces) return;
+    if (!options_.faces && !options_.labels) return;
     Result<Arrangement> arranged = arrange(e_);
     if (!arranged) return;
     arrangement_ = std::move(arranged).value();
-    options_.cells = options_.critical_regions = false;
+    if (options_.faces) options_.cells = options_.critical_regions = false;
   }
 
   std::string draw() {
@@ -174,13 +53,21 @@ class Picture {
     for (const Cell& cell : e_.cells)
       hatched_ |= options_.cells && cell.state == CellState::Relaxed;
     open();
-    if (arrangement_) draw_faces();
+    const bool faces = options_.faces && arrangement_;
+    if (arrangement_)
+      edges_ = trace_edges(e_, *arrangement_, kTolerance / std::max(view_.scale_x, view_.scale_y));
+    if (faces) draw_faces();
     if (options_.cells) draw_cells();
     if (options_.critical_regions) draw_critical_regions();
     draw_region();
-    draw_curves();
+    if (faces)
+      draw_edges();
+    else
+      draw_curves();
+    if (faces) draw_vertices();
     draw_crossings();
     draw_unresolved();
+    if (options_.labels && arrangement_) draw_labels();
     if (options_.axes) draw_axes();
     if (options_.legend) draw_legend();
     out_ += "</svg>\n";
@@ -317,33 +204,98 @@ class Picture {
     return kTints[code];
   }
 
+  /// A boundary of a face as one closed polyline.
+  std::vector<Point<2>> boundary(int first) const {
+    std::vector<Point<2>> points;
+    for (const int h : arrangement_->cycle(first)) {
+      const Polyline& edge = edges_[Arrangement::edge_of(h)];
+      if (h % 2 == 0)
+        points.insert(points.end(), edge.begin(), edge.end());
+      else
+        points.insert(points.end(), edge.rbegin(), edge.rend());
+    }
+    return points;
+  }
+
+  std::vector<std::vector<Point<2>>> boundaries(const Arrangement::Face& face) const {
+    std::vector<std::vector<Point<2>>> all = {boundary(face.outer)};
+    for (const int hole : face.holes) all.push_back(boundary(hole));
+    return all;
+  }
+
   void draw_faces() {
-    const auto edges =
-        trace_edges(e_, *arrangement_, kTolerance / std::max(view_.scale_x, view_.scale_y));
     add("<g id=\"faces\" fill-rule=\"evenodd\">\n");
     for (std::size_t f = 0; f < arrangement_->faces.size(); ++f) {
       const Arrangement::Face& face = arrangement_->faces[f];
       if (face.outer < 0) continue;
-      std::vector<int> boundaries = face.holes;
-      boundaries.insert(boundaries.begin(), face.outer);
-      std::string path;
-      for (const int first : boundaries) {
-        std::vector<Point<2>> points;
-        for (const int h : arrangement_->cycle(first)) {
-          const auto& edge = edges[Arrangement::edge_of(h)];
-          if (h % 2 == 0)
-            points.insert(points.end(), edge.begin(), edge.end());
-          else
-            points.insert(points.end(), edge.rbegin(), edge.rend());
-        }
-        path += view_.path(points, true);
-      }
-      std::string signs;
+      std::string path, signs;
+      for (const auto& points : boundaries(face)) path += view_.path(points, true);
       for (const Sign sign : face.signs) signs += sign == Sign::Positive ? "+" : "\u2212";
       add("<path fill=\"{}\" d=\"{}\"><title>face {}: {}</title></path>\n", face_tint(face.signs),
           path, f, signs);
     }
     add("</g>\n");
+  }
+
+  /// The curves edge by edge.
+  void draw_edges() {
+    add("<g id=\"edges\">\n");
+    for (int curve = 0; curve < static_cast<int>(e_.curves.size()); ++curve) {
+      add("<g {}>\n", stroke(curve));
+      for (std::size_t k = 0; k < edges_.size(); ++k) {
+        if (arrangement_->edges[k].curve != curve) continue;
+        const bool loop = arrangement_->half_edges[2 * k].origin < 0;
+        const auto [left, right] = arrangement_->faces_at(static_cast<int>(k));
+        add("<path d=\"{}\"><title>edge {} of {}: faces {} and {}</title></path>\n",
+            view_.path(edges_[k], loop), k, escaped(e_.curves[curve].name), left, right);
+      }
+      add("</g>\n");
+    }
+    add("</g>\n");
+  }
+
+  /// The vertices on the region's boundary; the others are the crossings.
+  void draw_vertices() {
+    add("<g id=\"vertices\" fill=\"#444\">\n");
+    for (std::size_t v = 0; v < arrangement_->vertices.size(); ++v) {
+      const Arrangement::Vertex& vertex = arrangement_->vertices[v];
+      if (vertex.kind == Arrangement::Vertex::Kind::Crossing) continue;
+      add("<path d=\"M{} {}h5v5h-5Z\"><title>vertex {}</title></path>\n",
+          pixels(view_.x(vertex.point[0]) - 2.5), pixels(view_.y(vertex.point[1]) - 2.5), v);
+    }
+    add("</g>\n");
+  }
+
+  std::vector<Point<2>> in_pixels(const std::vector<Point<2>>& points) const {
+    std::vector<Point<2>> result;
+    for (const Point<2>& p : points) result.push_back({view_.x(p[0]), view_.y(p[1])});
+    return result;
+  }
+
+  void draw_labels() {
+    const Arrangement& a = *arrangement_;
+    LabelPlacer placer({{view_.left - 1, view_.top - 1},
+                        {view_.left + view_.width + 1, view_.top + view_.height + 1}});
+    for (const Arrangement::Vertex& v : a.vertices)
+      placer.keep_clear({view_.x(v.point[0]), view_.y(v.point[1])}, 4);
+    std::string texts;
+    for (std::size_t f = 0; f < a.faces.size(); ++f) {
+      if (a.faces[f].outer < 0) continue;
+      std::vector<std::vector<Point<2>>> all;
+      for (const auto& points : boundaries(a.faces[f])) all.push_back(in_pixels(points));
+      texts += placer.in_face("f" + std::to_string(f), all, "#555");
+    }
+    for (std::size_t v = 0; v < a.vertices.size(); ++v)
+      texts += placer.at_point("v" + std::to_string(v), in_pixels({a.vertices[v].point}).front(),
+                               "#111");
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      const int curve = a.edges[k].curve;
+      texts += placer.along("e" + std::to_string(k), in_pixels(edges_[k]),
+                            curve < 0 ? "#444" : colour(curve));
+    }
+    add("<g id=\"labels\" text-anchor=\"middle\" stroke=\"#fff\" stroke-width=\"2.5\" "
+        "stroke-linejoin=\"round\" paint-order=\"stroke\">\n{}</g>\n",
+        texts);
   }
 
   void draw_critical_regions() {
@@ -591,7 +543,8 @@ class Picture {
 
   const Encasement& e_;
   SvgOptions options_;
-  std::optional<Arrangement> arrangement_;  ///< where faces are drawn
+  std::optional<Arrangement> arrangement_;  ///< where faces are drawn or labelled
+  std::vector<Polyline> edges_;             ///< of the arrangement
   View view_;
   double width_ = 0, height_ = 0;
   double cell_stroke_ = 0.7;

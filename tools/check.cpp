@@ -24,9 +24,12 @@ std::string verdict(const Encasement& encasement, std::int64_t claims) {
 ExitCode run_check(const std::string& file, bool quiet) {
   const auto text = read_input(file);
   if (!text) return fail(text.error());
-  const auto encasement = encasement_from_json(text.value(), file == "-" ? "standard input" : file);
-  if (!encasement) return fail(encasement.error());
-  const Verification verification = verify(encasement.value());
+  const auto stored = result_from_json(text.value(), file == "-" ? "standard input" : file);
+  if (!stored) return fail(stored.error());
+  const Encasement& encasement = stored.value().encasement;
+  const auto& arrangement = stored.value().arrangement;
+  const Verification verification =
+      arrangement ? verify(encasement, *arrangement) : verify(encasement);
   if (!verification.ok()) {
     std::string objections;
     for (const std::string& objection : verification.objections) objections += objection + "\n";
@@ -38,9 +41,8 @@ ExitCode run_check(const std::string& file, bool quiet) {
                      verification.objections.size() == 1 ? "" : "s")});
   }
   if (!quiet)
-    if (const Status status = print(verdict(encasement.value(), verification.claims)))
-      return fail(*status);
-  return exit_code(encasement.value().outcome);
+    if (const Status status = print(verdict(encasement, verification.claims))) return fail(*status);
+  return exit_code(encasement.outcome);
 }
 
 }  // namespace encase

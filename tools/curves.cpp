@@ -35,7 +35,9 @@ Status check_options(const CurvesRequest& r) {
         "give either a FILE of curves or expressions with -e; see encase curves --help");
   if ((r.json == "-") + (r.svg == "-") + r.summary > 1)
     return bad_input("only one of --json -, --svg - and --summary can have standard output");
-  if (r.faces && r.svg.empty()) return bad_input("--faces belongs to the picture: give --svg");
+  if (r.faces && r.svg.empty() && r.mesh.empty())
+    return bad_input("--faces belongs to the picture or the mesh: give --svg or --mesh");
+  if (r.labels && r.svg.empty()) return bad_input("--labels belongs to the picture: give --svg");
   if (r.history && r.vtk_directory.empty())
     return bad_input("--history belongs to the VTK files: give their directory with -o");
   if (r.options.start_bits > r.options.max_bits)
@@ -93,18 +95,37 @@ Result<Input> read(const CurvesRequest& r) {
 Status write_svg(const CurvesRequest& r, const Encasement& encasement) {
   SvgOptions options;
   options.faces = r.faces;
+  options.labels = r.labels;
   return write_output(r.svg, to_svg(encasement, options));
 }
 
+/// What is written: the result, and its arrangement where it is certified.
+struct Answer {
+  Encasement encasement;
+  std::optional<Arrangement> arrangement;
+  const Arrangement* arranged() const { return arrangement ? &*arrangement : nullptr; }
+};
+
+Result<Answer> answer(Encasement encasement) {
+  Answer answer{std::move(encasement), std::nullopt};
+  if (answer.encasement.outcome != Outcome::Certified) return answer;
+  Result<Arrangement> arranged = arrange(answer.encasement);
+  if (!arranged) return arranged.error();
+  answer.arrangement = std::move(arranged).value();
+  return answer;
+}
+
 /// The files asked for, in the order of their options.
-Status write_files(const CurvesRequest& r, const Encasement& encasement) {
+Status write_files(const CurvesRequest& r, const Answer& answer) {
+  const Encasement& encasement = answer.encasement;
   if (!r.json.empty())
-    if (const Status status = write_output(r.json, to_json(encasement))) return status;
+    if (const Status status = write_output(r.json, to_json(encasement, answer.arranged())))
+      return status;
   if (!r.svg.empty())
     if (const Status status = write_svg(r, encasement)) return status;
 #ifdef ENCASE_HAVE_OPEN_MESH
   if (!r.mesh.empty())
-    if (const Status status = write_open_mesh(encasement, r.mesh)) return status;
+    if (const Status status = write_open_mesh(encasement, r.mesh, {r.faces})) return status;
 #endif
 #ifdef ENCASE_HAVE_VTK
   if (!r.vtk_directory.empty())
@@ -113,28 +134,12 @@ Status write_files(const CurvesRequest& r, const Encasement& encasement) {
   return {};
 }
 
-/// The counts of a result; those of its arrangement too where it is certified.
-Result<std::string> summary(const Encasement& encasement) {
-  std::string text = summary_json(encasement);
-  if (encasement.outcome != Outcome::Certified) return text;
-  const Result<Arrangement> arranged = arrange(encasement);
-  if (!arranged) return arranged.error();
-  const Arrangement& a = arranged.value();
-  // The outside of the region is no face that anyone counts.
-  text.insert(
-      text.rfind('}'),
-      fmt::format(",\"vertices\":{},\"edges\":{},\"faces\":{},\"components\":{}", a.vertices.size(),
-                  a.edges.size(), a.faces.size() - 1, a.components.size()));
-  return text;
-}
-
-Status write_report(const CurvesRequest& r, const Encasement& encasement) {
-  std::string text = report(encasement);
-  if (r.verbose) text += statistics_report(encasement);
+Status write_report(const CurvesRequest& r, const Answer& answer) {
+  std::string text = report(answer.encasement);
+  if (r.verbose) text += statistics_report(answer.encasement);
   if (r.summary) {
-    const Result<std::string> counts = summary(encasement);
-    if (!counts) return counts.error();
-    if (const Status status = print(counts.value())) return status;
+    const std::string counts = summary_json(answer.encasement, answer.arranged());
+    if (const Status status = print(counts)) return status;
     if (r.verbose) std::fputs(text.c_str(), stderr);
     return {};
   }
@@ -154,13 +159,15 @@ ExitCode run_curves(CurvesRequest request) {
 
   std::optional<Progress> progress(std::in_place, !request.quiet);
   request.options.progress = progress->callback();
-  const auto result = encase(input.value().curves, input.value().region, request.options);
+  auto result = encase(input.value().curves, input.value().region, request.options);
   progress.reset();
   if (!result) return fail(result.error());
+  const auto answered = answer(std::move(result).value());
+  if (!answered) return fail(answered.error());
 
-  if (const Status status = write_files(request, result.value())) return fail(*status);
-  if (const Status status = write_report(request, result.value())) return fail(*status);
-  return exit_code(result.value().outcome);
+  if (const Status status = write_files(request, answered.value())) return fail(*status);
+  if (const Status status = write_report(request, answered.value())) return fail(*status);
+  return exit_code(answered.value().encasement.outcome);
 }
 
 }  // namespace encase

@@ -16,7 +16,8 @@ struct CurvesRequest {
   std::string region;                    ///< of --region, overrides the file's
   std::string json;
   std::string svg;
-  bool faces = false;  ///< in the SVG
+  bool faces = false;   ///< in the SVG and the mesh
+  bool labels = false;  ///< in the SVG
   std::string mesh;
   std::string vtk_directory;
   bool history = false;

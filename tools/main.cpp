@@ -32,7 +32,8 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
   c->add_option("--json", r.json, "write the result, everything that proves it included")
       ->type_name("FILE");
   c->add_option("--svg", r.svg, "write a picture")->type_name("FILE");
-  c->add_flag("--faces", r.faces, "with --svg: faces of the arrangement instead of cells");
+  c->add_flag("--faces", r.faces, "with --svg, --mesh: faces of the arrangement, not cells");
+  c->add_flag("--labels", r.labels, "with --svg: the numbers of faces, edges and vertices");
   c->add_option("--mesh", r.mesh, "write the cells for OpenMesh: .om, .off, .obj or .ply")
       ->type_name("FILE");
   c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");

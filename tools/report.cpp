@@ -6,52 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
+
+#include "io/names.hpp"
 
 namespace encase {
 namespace {
 
-const char* name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::Certified:
-      return "certified";
-    case Outcome::Degenerate:
-      return "degenerate";
-    case Outcome::Undecided:
-      return "undecided";
-  }
-  return "";
-}
-
-const char* name(Location location) {
-  switch (location) {
-    case Location::Inside:
-      return "";
-    case Location::OnBoundary:
-      return "on the boundary";
-    case Location::Outside:
-      return "outside";
-  }
-  return "";
-}
-
-const char* name(Unresolved::Kind kind) {
-  switch (kind) {
-    case Unresolved::Kind::Contact:
-      return "contact";
-    case Unresolved::Kind::SingularPoint:
-      return "singular point";
-    case Unresolved::Kind::Concurrency:
-      return "concurrency";
-    case Unresolved::Kind::SharedComponent:
-      return "shared component";
-    case Unresolved::Kind::RepeatedComponent:
-      return "repeated component";
-    case Unresolved::Kind::Infinity:
-      return "infinity";
-    case Unresolved::Kind::Budget:
-      return "budget";
-  }
-  return "";
+/// A file's word as people write it.
+std::string words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 /// `count` things, in words: "1 crossing", "2 crossings".
@@ -89,7 +54,9 @@ std::string crossing_table(const Encasement& encasement) {
     fmt::format_to(out, "{:>5}  {:<{}}  {:>23.17g}  {:>23.17g}  {:>8.1e}  {:>5}", i, pair, width,
                    c.point[0], c.point[1], radius(c),
                    c.cell >= 0 ? std::to_string(c.cell) : std::string("-"));
-    if (*name(c.location)) fmt::format_to(out, "  {}", name(c.location));
+    if (c.location != Location::Inside)
+      fmt::format_to(out, "  {}",
+                     c.location == Location::OnBoundary ? "on the boundary" : "outside");
     text += '\n';
   }
   return text;
@@ -104,14 +71,13 @@ std::string unresolved_list(const Encasement& encasement, const std::vector<Unre
   constexpr std::size_t kMostShown = 20;
   for (std::size_t i = 0; i < std::min(list.size(), kMostShown); ++i) {
     const Unresolved& u = list[i];
-    const bool of_input = u.kind == Unresolved::Kind::SharedComponent ||
-                          u.kind == Unresolved::Kind::RepeatedComponent;
+    const bool of_input = names_input_curves(u.kind);
     std::string curves;
     for (const int c : u.curves)
       curves += (curves.empty() ? "" : ", ") +
                 (of_input ? encasement.input[c].name : encasement.curves[c].name);
-    fmt::format_to(out, "  {}{}{}{}\n", name(u.kind), curves.empty() ? "" : " of ", curves,
-                   u.proved ? " (proved)" : "");
+    fmt::format_to(out, "  {}{}{}{}\n", words(name_of(kUnresolvedKinds, u.kind)),
+                   curves.empty() ? "" : " of ", curves, u.proved ? " (proved)" : "");
     if (u.has_box)
       fmt::format_to(out, "    in [{}, {}] x [{}, {}]\n", u.box.lo[0], u.box.hi[0], u.box.lo[1],
                      u.box.hi[1]);
@@ -135,7 +101,7 @@ std::string report(const Encasement& encasement) {
                          [=](const Cell& c) { return c.state == state; });
   };
   fmt::format_to(
-      out, "{}: {}, {} in {}", name(encasement.outcome),
+      out, "{}: {}, {} in {}", name_of(kOutcomes, encasement.outcome),
       counted(static_cast<std::int64_t>(encasement.curves.size()), "curve"),
       counted(static_cast<std::int64_t>(encasement.crossings.size()) - outside, "crossing"),
       counted(static_cast<std::int64_t>(encasement.cells.size()), "cell"));

@@ -3,6 +3,9 @@
 
     encase curves examples/clover.curves -o out
     pvpython examples/paraview/open_encasement.py out picture.png
+    pvpython examples/paraview/open_encasement.py out picture.png faces
+
+The last one shows the faces of the arrangement in place of the cells.
 
 In ParaView itself (View > Python Shell) the pipeline stays open to play with:
 
@@ -20,6 +23,10 @@ from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetColorTransferFun
 CURVE_COLOURS = [(0.00, 0.45, 0.70), (0.84, 0.37, 0.00), (0.00, 0.62, 0.45), (0.80, 0.47, 0.65),
                  (0.34, 0.71, 0.91), (0.90, 0.62, 0.00)]
 CELL_KINDS = ["empty", "one curve", "crossing", "relaxed", "degenerate", "undecided"]
+# By the curves' signs, as in the pictures of `encase curves --svg F --faces`.
+FACE_COLOURS = [(0.98, 0.91, 0.78), (0.84, 0.91, 0.96), (0.89, 0.94, 0.85), (0.96, 0.87, 0.90),
+                (0.90, 0.88, 0.95), (0.99, 0.96, 0.79), (0.84, 0.94, 0.93), (0.93, 0.93, 0.93)]
+SIGN_CODES = [1, 2, 4, 7, 3, 5, 6]
 CELL_COLOURS = [(1.00, 1.00, 1.00), (0.91, 0.95, 0.98), (1.00, 0.97, 0.86), (0.92, 0.93, 0.95),
                 (0.98, 0.85, 0.84), (0.93, 0.88, 0.97)]
 
@@ -43,7 +50,23 @@ def colour_by(display, array, names, colours):
     table.IndexedOpacities = [1.0] * len(names)
 
 
-def show(directory):
+def face_colours(faces):
+    """A colour for each face, the same for equal signs of the curves."""
+    attributes = servermanager.Fetch(faces).GetCellData()
+    names = [attributes.GetArrayName(k) for k in range(attributes.GetNumberOfArrays())]
+    signs = [attributes.GetAbstractArray(name) for name in names if name.startswith("sign_")]
+    ids = attributes.GetAbstractArray("id")
+    codes = {}
+    for k in range(ids.GetNumberOfTuples()):
+        code = 0
+        for curve, sign in enumerate(signs):
+            if sign.GetValue(k) < 0:
+                code ^= SIGN_CODES[curve % len(SIGN_CODES)]
+        codes[ids.GetValue(k)] = code
+    return [FACE_COLOURS[codes.get(k, 0)] for k in range(max(codes) + 1)]
+
+
+def show(directory, with_faces):
     view = GetActiveViewOrCreate("RenderView")
     view.InteractionMode = "2D"
     view.UseColorPaletteForBackground = 0
@@ -51,7 +74,10 @@ def show(directory):
     view.Background = [1.0, 1.0, 1.0]
     view.OrientationAxesVisibility = 0
     blocks = {name: open_block(directory, name)
-              for name in ["cells", "critical_regions", "curves", "unresolved", "points"]}
+              for name in ["cells", "faces", "critical_regions", "curves", "unresolved", "points",
+                           "vertices"]}
+    if with_faces and not blocks["faces"]:
+        sys.exit("there are no faces: the result is not certified")
 
     cells = blocks["cells"]
     bounds = cells.GetDataInformation().GetBounds()
@@ -65,13 +91,19 @@ def show(directory):
             curve_names[curves.GetValue(k)] = names.GetValue(k)
     names = [curve_names.get(k, str(k)) for k in range(max(curve_names, default=-1) + 1)]
 
-    display = Show(cells, view)
-    display.SetRepresentationType("Surface With Edges")
-    display.EdgeColor = [0.6, 0.62, 0.65]
+    if with_faces:
+        display = Show(blocks["faces"], view)
+        display.SetRepresentationType("Surface")
+        colours = face_colours(blocks["faces"])
+        colour_by(display, "id", [f"face {k}" for k in range(len(colours))], colours)
+    else:
+        display = Show(cells, view)
+        display.SetRepresentationType("Surface With Edges")
+        display.EdgeColor = [0.6, 0.62, 0.65]
+        colour_by(display, "kind", CELL_KINDS, CELL_COLOURS)
     display.Ambient, display.Diffuse = 1.0, 0.0
-    colour_by(display, "kind", CELL_KINDS, CELL_COLOURS)
 
-    if blocks["critical_regions"]:
+    if blocks["critical_regions"] and not with_faces:
         display = Show(blocks["critical_regions"], view)
         display.Position = [0.0, 0.0, layer]
         display.Opacity = 0.3
@@ -97,8 +129,9 @@ def show(directory):
         display.LineWidth = 4.0
         display.ColorArrayName = [None, ""]
         display.AmbientColor = display.DiffuseColor = [0.76, 0.07, 0.12]
-    if blocks["points"]:
-        display = Show(blocks["points"], view)
+    points = blocks["vertices"] if with_faces else blocks["points"]
+    if points:
+        display = Show(points, view)
         display.Position = [0.0, 0.0, 4 * layer]
         display.SetRepresentationType("Points")
         display.PointSize = 9.0
@@ -113,8 +146,8 @@ def show(directory):
 
 
 if len(sys.argv) < 2:
-    sys.exit("usage: pvpython open_encasement.py DIRECTORY [PICTURE.png]")
-encasement_view = show(sys.argv[1])
+    sys.exit("usage: pvpython open_encasement.py DIRECTORY [PICTURE.png [faces]]")
+encasement_view = show(sys.argv[1], "faces" in sys.argv[3:])
 if len(sys.argv) > 2:
     encasement_view.ViewSize = [1000, 1000]
     SaveScreenshot(sys.argv[2], encasement_view, ImageResolution=[1000, 1000])

@@ -26,6 +26,10 @@ struct Arrangement {
     Kind kind = Kind::Corner;
     int index = -1;
     int half_edge = -1;  ///< one that begins here
+    /// The crossing's `point`, the corner rounded to nearest, or where the curve meets the
+    /// boundary, within about 2^-50 of the region's largest coordinate.
+    Point<2> point{};
+    bool operator==(const Vertex&) const = default;
   };
 
   /// An edge in one of its two directions; its face lies to the left. Half-edges 2 k and 2 k + 1
@@ -35,6 +39,7 @@ struct Arrangement {
     int next = -1;    ///< follows it around its face
     int prev = -1;    ///< precedes it
     int face = -1;
+    bool operator==(const HalfEdge&) const = default;
   };
 
   /// A curve's branch in a cell, or the part of it on one side of the cell's crossing.
@@ -43,6 +48,7 @@ struct Arrangement {
     int branch = -1;  ///< index in the cell's branches
     int from = -1;    ///< the line crossing where it begins, or -1 for the cell's crossing
     int to = -1;      ///< and where it ends
+    bool operator==(const Strand&) const = default;
   };
 
   /// A maximal piece of a curve or of the region's boundary without a vertex inside.
@@ -51,6 +57,7 @@ struct Arrangement {
     int side = -1;                ///< on the boundary: which side; else -1
     std::vector<Strand> strands;  ///< along the edge; none on the boundary
     int component = -1;
+    bool operator==(const Edge&) const = default;
   };
 
   /// A part of a cell between its branches. It meets the cell's boundary behind entry `word` of the
@@ -59,6 +66,7 @@ struct Arrangement {
     int cell = -1;
     int word = 0;
     int face = -1;
+    bool operator==(const Piece&) const = default;
   };
 
   /// A maximal connected set without points of curves; face `outside` is all beyond the region.
@@ -68,6 +76,7 @@ struct Arrangement {
     std::vector<Sign> signs;  ///< of every curve's polynomial; none for the outside
     std::vector<int> pieces;  ///< none for the outside
     int parent = -1;          ///< the face in a hole of which it lies; -1 for the outside
+    bool operator==(const Face&) const = default;
   };
 
   /// A connected component of the graph of edges and vertices.
@@ -77,6 +86,7 @@ struct Arrangement {
     std::vector<int> faces;  ///< those whose outer boundary belongs to it
     int vertices = 0;
     int edges = 0;
+    bool operator==(const Component&) const = default;
   };
 
   /// A connected component of a curve in the region.
@@ -85,6 +95,7 @@ struct Arrangement {
     bool closed = false;          ///< a closed loop; else an arc from boundary to boundary
     std::vector<int> half_edges;  ///< along it
     std::vector<int> crossings;   ///< along it, in Encasement::crossings
+    bool operator==(const CurveComponent&) const = default;
   };
 
   /// A vertex, an edge or a face.
@@ -120,6 +131,7 @@ struct Arrangement {
   std::vector<Component> components;
   std::vector<CurveComponent> curve_components;  ///< in the order of the curves
   int outside = 0;
+  bool operator==(const Arrangement&) const = default;
 };
 
 /// The arrangement of an encasement's curves. Degenerate or Undecided if the encasement is;

@@ -13,8 +13,11 @@ struct SvgOptions {
   bool axes = true;              ///< a frame with coordinates
   bool cells = true;             ///< cells tinted by what they hold
   bool critical_regions = true;  ///< translucent, in their curve's colour
-  bool faces = false;  ///< in place of cells and critical regions, the faces of the arrangement,
-                       ///< tinted by the curves' signs; only where the answer is certified
+  bool faces = false;   ///< in place of cells and critical regions, the faces of the arrangement,
+                        ///< tinted by the curves' signs, its edges and its vertices; only where
+                        ///< the answer is certified
+  bool labels = false;  ///< the numbers of faces, edges and vertices of the arrangement (f1, e2,
+                        ///< v3), those that find room; only where the answer is certified
 };
 
 /// A picture of an encasement: cells, curves (traced within a tenth of a pixel), crossings,

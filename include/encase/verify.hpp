@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "encase/arrangement.hpp"
 #include "encase/encasement.hpp"
 
 namespace encase {
@@ -21,7 +22,14 @@ struct VerifyOptions {
 
 /// Re-proves an encasement from its stored facts and the exact input, without the search that found
 /// it: the partition, the crossings on every edge, the crossing boxes, the completeness of the
-/// lists of crossings and critical regions, the loop certificates, and the definition cell by cell.
+/// lists of crossings and critical regions, the loop certificates, and the definition cell by cell;
+/// where it is certified also that its arrangement exists and obeys the rules of `check`, Euler's
+/// relation among them.
 Verification verify(const Encasement& encasement, const VerifyOptions& options = {});
+
+/// The same, and that a stored arrangement is that of the encasement, entry by entry, as `arrange`
+/// derives it from the facts that were proved.
+Verification verify(const Encasement& encasement, const Arrangement& arrangement,
+                    const VerifyOptions& options = {});
 
 }  // namespace encase

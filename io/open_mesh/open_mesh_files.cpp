@@ -8,16 +8,25 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "2d/cell_complex.hpp"
+#include "2d/cell_signs.hpp"
+#include "2d/piece_complex.hpp"
+#include "2d/trace.hpp"
+#include "encase/arrangement.hpp"
 #include "encase/atomic_file.hpp"
 
 namespace encase {
 namespace {
 
 using Mesh = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
+
+/// Between a curve and its polyline, as a part of the region's size.
+constexpr double kTolerance = 1e-4;
 
 Error error(Error::Code code, const std::string& message) { return {code, message}; }
 
@@ -50,36 +59,101 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-Status build(const Encasement& encasement, Mesh* mesh) {
-  const Result<CellComplex> made = make_cell_complex(encasement);
-  if (!made) return made.error();
-  const CellComplex& complex = made.value();
-  std::vector<Mesh::VertexHandle> vertices;
-  vertices.reserve(complex.points.size());
-  for (const Point<2>& p : complex.points) vertices.push_back(mesh->add_vertex({p[0], p[1], 0}));
+/// What the faces of a mesh say of themselves.
+struct Properties {
+  explicit Properties(Mesh* mesh) {
+    mesh->add_property(cell, "cell");
+    mesh->add_property(state, "state");
+    mesh->add_property(face, "face");
+    mesh->add_property(signs, "signs");
+    mesh->property(cell).set_persistent(true);
+    mesh->property(state).set_persistent(true);
+    mesh->property(face).set_persistent(true);
+    mesh->property(signs).set_persistent(true);
+  }
+  OpenMesh::FPropHandleT<int> cell, state, face;
+  OpenMesh::FPropHandleT<std::vector<int>> signs;
+};
 
-  OpenMesh::FPropHandleT<int> cell_of, state_of;
-  mesh->add_property(cell_of, "cell");
-  mesh->add_property(state_of, "state");
-  mesh->property(cell_of).set_persistent(true);
-  mesh->property(state_of).set_persistent(true);
+/// Adds a polygon of a cell, or of a part of it; nothing if it does not fit to those that are
+/// there.
+std::optional<Mesh::FaceHandle> add_polygon(const Encasement& encasement, int cell,
+                                            const std::vector<int>& corners,
+                                            const Properties& properties, Mesh* mesh) {
   std::vector<Mesh::VertexHandle> loop;
-  for (std::size_t k = 0; k < complex.cells.size(); ++k) {
-    loop.clear();
-    for (const int vertex : complex.cells[k]) loop.push_back(vertices[vertex]);
-    const Mesh::FaceHandle face = mesh->add_face(loop);
-    if (!face.is_valid())
-      return error(Error::Code::Internal,
-                   "cell " + std::to_string(k) + " cannot be added to the mesh");
-    mesh->property(cell_of, face) = static_cast<int>(k);
-    mesh->property(state_of, face) = static_cast<int>(encasement.cells[k].state);
+  for (const int k : corners) loop.push_back(mesh->vertex_handle(static_cast<unsigned>(k)));
+  const Mesh::FaceHandle face = mesh->add_face(loop);
+  if (!face.is_valid()) return std::nullopt;
+  mesh->property(properties.cell, face) = cell;
+  mesh->property(properties.state, face) = static_cast<int>(encasement.cells[cell].state);
+  return face;
+}
+
+Error misfit(const char* what, std::size_t k) {
+  return error(Error::Code::Internal,
+               std::string(what) + " " + std::to_string(k) + " cannot be added to the mesh");
+}
+
+void add_points(const std::vector<Point<2>>& points, Mesh* mesh) {
+  for (const Point<2>& p : points) mesh->add_vertex({p[0], p[1], 0});
+}
+
+/// The face of the arrangement in which each cell lies; -1 for several or none.
+std::vector<int> faces_of_cells(const Encasement& encasement, const Arrangement* arrangement) {
+  std::vector<int> faces(encasement.cells.size(), -1);
+  if (!arrangement) return faces;
+  for (const Arrangement::Piece& piece : arrangement->pieces)
+    if (encasement.cells[piece.cell].word.empty()) faces[piece.cell] = piece.face;
+  return faces;
+}
+
+Status add_cells(const Encasement& encasement, const Arrangement* arrangement, Mesh* mesh) {
+  const Result<CellComplex> complex = make_cell_complex(encasement);
+  if (!complex) return complex.error();
+  add_points(complex.value().points, mesh);
+  const Properties properties(mesh);
+  const std::vector<int> faces = faces_of_cells(encasement, arrangement);
+  CellSigns signs(encasement);
+  for (std::size_t k = 0; k < encasement.cells.size(); ++k) {
+    const auto face =
+        add_polygon(encasement, static_cast<int>(k), complex.value().cells[k], properties, mesh);
+    if (!face) return misfit("cell", k);
+    mesh->property(properties.face, *face) = faces[k];
+    mesh->property(properties.signs, *face) = signs.of(encasement.cells[k]);
   }
   return std::nullopt;
 }
 
+Status add_pieces(const Encasement& encasement, const Arrangement& arrangement, Mesh* mesh) {
+  const double tolerance = kTolerance * encasement.region_used.bounding_box().largest_width();
+  const Result<PieceComplex> complex =
+      make_piece_complex(encasement, arrangement, trace_edges(encasement, arrangement, tolerance));
+  if (!complex) return complex.error();
+  add_points(complex.value().points, mesh);
+  const Properties properties(mesh);
+  for (std::size_t k = 0; k < arrangement.pieces.size(); ++k) {
+    const Arrangement::Piece& piece = arrangement.pieces[k];
+    const auto face =
+        add_polygon(encasement, piece.cell, complex.value().pieces[k], properties, mesh);
+    if (!face) return misfit("piece", k);
+    mesh->property(properties.face, *face) = piece.face;
+    std::vector<int>& signs = mesh->property(properties.signs, *face);
+    for (const Sign sign : arrangement.faces[piece.face].signs)
+      signs.push_back(static_cast<int>(sign));
+  }
+  return std::nullopt;
+}
+
+Status build(const Encasement& encasement, const OpenMeshOptions& options, Mesh* mesh) {
+  const Result<Arrangement> arranged = arrange(encasement);
+  if (arranged && options.faces) return add_pieces(encasement, arranged.value(), mesh);
+  return add_cells(encasement, arranged ? &arranged.value() : nullptr, mesh);
+}
+
 }  // namespace
 
-Status write_open_mesh(const Encasement& encasement, const std::string& path) {
+Status write_open_mesh(const Encasement& encasement, const std::string& path,
+                       const OpenMeshOptions& options) {
   const std::string extension = extension_of(path);
   constexpr std::array<const char*, 4> kFormats = {".om", ".off", ".obj", ".ply"};
   if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
@@ -90,14 +164,14 @@ Status write_open_mesh(const Encasement& encasement, const std::string& path) {
   }
   const Silence silence;
   Mesh mesh;
-  if (Status bad = build(encasement, &mesh)) return bad;
+  if (Status bad = build(encasement, options, &mesh)) return bad;
 
   // Into memory first, so that a failure leaves no half a file.
   std::ostringstream stream(std::ios::binary);
-  OpenMesh::IO::Options options;
-  if (extension == ".om") options += OpenMesh::IO::Options::Binary;
+  OpenMesh::IO::Options format;
+  if (extension == ".om") format += OpenMesh::IO::Options::Binary;
   constexpr int kDigits = 17;
-  if (!OpenMesh::IO::write_mesh(mesh, stream, extension, options, kDigits) || !stream)
+  if (!OpenMesh::IO::write_mesh(mesh, stream, extension, format, kDigits) || !stream)
     return error(Error::Code::Io, "cannot write '" + path + "': OpenMesh failed to write the mesh");
   return write_file(path, stream.str());
 }

@@ -2,12 +2,16 @@
 #include "encase/arrangement.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "2d/arrangement_faces.hpp"
 #include "2d/cell_parts.hpp"
-#include "2d/partition.hpp"
+#include "common/filtered_polynomial.hpp"
+#include "common/segments.hpp"
 
 namespace encase {
 namespace {
@@ -25,6 +29,37 @@ struct RawStrand {
 struct StrandEnd {
   int strand = -1;
   int end = 0;
+};
+
+/// Where curves meet the region's boundary, in doubles.
+class BoundaryPoints {
+ public:
+  explicit BoundaryPoints(const Encasement& encasement)
+      : e_(encasement), polynomials_(encasement.curves.size()) {
+    double size = 0;
+    for (const RationalPoint<2>& corner : e_.region_used.corners)
+      for (const Rational& c : corner) size = std::max(size, std::fabs(nearest_double(c)));
+    width_ = 0x1p-50 * size;
+  }
+
+  /// In the middle of the interval, made as narrow as doubles can tell.
+  Point<2> of(const LineCrossing& crossing) {
+    auto& f = polynomials_[crossing.curve];
+    if (!f) f.emplace(e_.curves[crossing.curve].polynomial);
+    const Line& line = e_.lines[crossing.line];
+    RootInterval root{crossing.lo, crossing.hi};
+    constexpr int kMost = 1200;  // halvings from the largest double to the smallest one
+    for (int k = 0; k < kMost && root.hi - root.lo > width_; ++k)
+      if (!refine_on_line(*f, line, &root, kernel_)) break;
+    const auto point = point_on_line(line, Interval(root.lo + 0.5 * (root.hi - root.lo)));
+    return {point[0].mid(), point[1].mid()};
+  }
+
+ private:
+  const Encasement& e_;
+  std::vector<std::optional<FilteredPolynomial<2>>> polynomials_;
+  double width_ = 0;
+  Kernel kernel_;
 };
 
 class Builder {
@@ -48,22 +83,29 @@ class Builder {
     return false;
   }
 
-  int add_vertex(Arrangement::Vertex::Kind kind, int index) {
-    a_.vertices.push_back({kind, index, -1});
+  int add_vertex(Arrangement::Vertex::Kind kind, int index, const Point<2>& point) {
+    a_.vertices.push_back({kind, index, -1, point});
     out_.emplace_back();
     return static_cast<int>(a_.vertices.size()) - 1;
   }
 
   void make_vertices() {
-    for (int k = 0; k < sides_; ++k) add_vertex(Arrangement::Vertex::Kind::Corner, k);
+    for (int k = 0; k < sides_; ++k) {
+      const RationalPoint<2>& corner = e_.region_used.corners[k];
+      add_vertex(Arrangement::Vertex::Kind::Corner, k,
+                 {nearest_double(corner[0]), nearest_double(corner[1])});
+    }
+    BoundaryPoints points(e_);
     vertex_at_line_crossing_.assign(e_.line_crossings.size(), -1);
     for (int k = 0; k < sides_; ++k)
       for (const int c : parts_.on_line[k])
-        vertex_at_line_crossing_[c] = add_vertex(Arrangement::Vertex::Kind::OnBoundary, c);
+        vertex_at_line_crossing_[c] =
+            add_vertex(Arrangement::Vertex::Kind::OnBoundary, c, points.of(e_.line_crossings[c]));
     vertex_in_cell_.assign(e_.cells.size(), -1);
     for (std::size_t k = 0; k < e_.cells.size(); ++k)
-      if (e_.cells[k].crossing >= 0)
-        vertex_in_cell_[k] = add_vertex(Arrangement::Vertex::Kind::Crossing, e_.cells[k].crossing);
+      if (const int c = e_.cells[k].crossing; c >= 0)
+        vertex_in_cell_[k] =
+            add_vertex(Arrangement::Vertex::Kind::Crossing, c, e_.crossings[c].point);
   }
 
   void add_strand(int cell, int branch, int from, int to, int left, int right) {

@@ -85,7 +85,7 @@ Result<CellComplex> make_cell_complex(const Encasement& encasement) {
   }
 
   for (const Cell& cell : encasement.cells) {
-    std::vector<int> loop;
+    std::vector<int> loop, on;
     const std::size_t size = cell.vertices.size();
     for (std::size_t k = 0; k < size; ++k) {
       const int from = number[numbers.at(key_of(cell.vertices[k]))];
@@ -94,14 +94,15 @@ Result<CellComplex> make_cell_complex(const Encasement& encasement) {
       const std::vector<int>& here = on_line[cell.vertices[k].line_out];
       const auto first = std::upper_bound(here.begin(), here.end(), std::min(from, to));
       const auto last = std::lower_bound(here.begin(), here.end(), std::max(from, to));
-      if (first >= last) continue;
-      if (from < to)
+      if (first < last && from < to)
         loop.insert(loop.end(), first, last);
-      else
+      else if (first < last)
         loop.insert(loop.end(), std::make_reverse_iterator(last),
                     std::make_reverse_iterator(first));
+      on.resize(loop.size(), cell.vertices[k].line_out);
     }
     complex.cells.push_back(std::move(loop));
+    complex.lines.push_back(std::move(on));
   }
   return complex;
 }

@@ -18,6 +18,7 @@ struct CellComplex {
   std::vector<RationalPoint<2>> exact;  ///< the vertices, no two equal
   std::vector<Point<2>> points;         ///< each rounded to nearest
   std::vector<std::vector<int>> cells;  ///< one for each cell: its vertices, counter-clockwise
+  std::vector<std::vector<int>> lines;  ///< the line on which each vertex' edge to the next runs
 };
 
 /// Internal if a cell has less than three vertices or parallel lines that follow each other. Cost:

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "2d/partition.hpp"
 #include "common/segments.hpp"
 #include "common/union_find.hpp"
 

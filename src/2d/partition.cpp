@@ -161,12 +161,6 @@ const Partition::Spot& Partition::spot(int line_crossing) {
   return spot;
 }
 
-bool parameter_grows(const Line& line, bool positive) {
-  // With the inside to the left, the direction is (-b, a) on the negative side of a x + b y + c.
-  const double along = parameter_axis(line) == 0 ? -line.normal[1] : line.normal[0];
-  return (along > 0) != positive;
-}
-
 ValueAndGradient value_and_gradient(TiledPolynomial& f, const Point<2>& at) {
   const Tile& tile = f.at(at);
   const Point<2> scale{1 / tile.half[0], 1 / tile.half[1]};

@@ -148,11 +148,6 @@ class Partition {
   std::vector<Spot> spots_;  ///< of every line crossing
 };
 
-/// Whether a line's parameter grows along an edge on it that runs counter-clockwise around a cell
-/// on the line's negative or positive side. Exact: the signs of the doubles are those of the
-/// coefficients.
-bool parameter_grows(const Line& line, bool positive);
-
 /// A polynomial's value and gradient near or in its box, in doubles: heuristics use them.
 struct ValueAndGradient {
   double value;

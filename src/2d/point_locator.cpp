@@ -112,7 +112,8 @@ PointLocator::PointLocator(const Encasement& e, const Arrangement& a) {
   tables->on_side.resize(sides);
   tables->edges_on_side.resize(sides);
   for (std::size_t v = 0; v < a.vertices.size(); ++v) {
-    const auto [kind, index, unused] = a.vertices[v];
+    const Arrangement::Vertex::Kind kind = a.vertices[v].kind;
+    const int index = a.vertices[v].index;
     const int id = static_cast<int>(v);
     if (kind == Arrangement::Vertex::Kind::Corner) tables->vertex_at_corner[index] = id;
     if (kind == Arrangement::Vertex::Kind::OnBoundary) {

@@ -273,6 +273,9 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options) 
   check_crossing_covers(claims);
   check_critical_regions(claims);
   check_critical_covers(claims);
+
+  // What all of this makes of the region.
+  if (claims.report.ok() && encasement.outcome == Outcome::Certified) check_arrangement(claims);
   return claims.report;
 }
 

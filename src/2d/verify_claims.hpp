@@ -151,4 +151,8 @@ void check_cells(Claims& claims, const Partition& partition);
 /// The outcome is what the lists and the cells make it.
 void check_outcome(Claims& claims);
 
+/// The parts of a certified result fit together to an arrangement, of which Euler's relation and
+/// the other rules of `check` hold.
+void check_arrangement(Claims& claims);
+
 }  // namespace encase::verification

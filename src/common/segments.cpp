@@ -410,6 +410,12 @@ RationalPoint<2> point_on_line(const Line& line, const Rational& parameter) {
   return at;
 }
 
+bool parameter_grows(const Line& line, bool positive) {
+  // With the inside to the left, the direction is (-b, a) on the negative side of a x + b y + c.
+  const double along = parameter_axis(line) == 0 ? -line.normal[1] : line.normal[0];
+  return (along > 0) != positive;
+}
+
 std::array<Interval, 2> meet(const Line& first, const Line& second) {
   const Interval a = coefficient(first, 0), b = coefficient(first, 1), c = coefficient(first, 2);
   const Interval d = coefficient(second, 0), e = coefficient(second, 1), f = coefficient(second, 2);

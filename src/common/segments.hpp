@@ -56,6 +56,11 @@ Sign sign_on_line(const FilteredPolynomial<2>& f, const Line& line, double param
 std::array<Interval, 2> point_on_line(const Line& line, const Interval& parameter);
 RationalPoint<2> point_on_line(const Line& line, const Rational& parameter);
 
+/// Whether a line's parameter grows along an edge on it that runs counter-clockwise around a cell
+/// on the line's negative or positive side. Exact: the signs of the doubles are those of the
+/// coefficients.
+bool parameter_grows(const Line& line, bool positive);
+
 /// The common point of two lines that are not parallel: enclosed, and exactly. Parallel lines give
 /// infinite intervals; the exact form requires lines that are not parallel.
 std::array<Interval, 2> meet(const Line& first, const Line& second);

@@ -399,6 +399,12 @@ TEST(SummaryJson, CountsWhatItNames) {
   EXPECT_EQ(
       summary_json(e),
       R"({"status":"undecided","curves":2,"crossings":1,"cells":3,"relaxed_cells":1,"pairs_met":14,"pairs_isolated":13,"filter_failures":12,"seconds":0.25})");
+  const Arrangement a = arrange(sample::circle_and_line()).value();
+  const Json json = Json::parse(summary_json(e, &a));
+  EXPECT_EQ(json["vertices"], 8);
+  EXPECT_EQ(json["edges"], 11);
+  EXPECT_EQ(json["faces"], 4);
+  EXPECT_EQ(json["components"], 1);
 }
 
 }  // namespace

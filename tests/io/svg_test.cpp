@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "encase/arrangement.hpp"
+#include "io/svg_labels.hpp"
+#include "tests/encased.hpp"
 #include "tests/sample_encasements.hpp"
 
 namespace encase {
@@ -185,6 +189,12 @@ TEST(Svg, StaysInBoundsForRegionsOfAnySizeAndShape) {
   }
 }
 
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
 TEST(Svg, FillsTheFacesOfTheArrangement) {
   SvgOptions options = bare();
   options.faces = true;
@@ -198,10 +208,90 @@ TEST(Svg, FillsTheFacesOfTheArrangement) {
     tints.insert((*k)[1]);
   EXPECT_EQ(faces, 4);
   EXPECT_EQ(tints.size(), 4u);
+  // Two edges on the circle, three on the line; two of its ends and four corners.
+  EXPECT_EQ(count(svg, "<title>edge "), 5);
+  EXPECT_EQ(count(svg, " of circle: faces "), 2);
+  EXPECT_EQ(count(svg, "<title>vertex "), 6);
+  EXPECT_EQ(svg.find("id=\"curves\""), std::string::npos);
   // Not certified: cells as always.
   Encasement e = sample::circle_and_line();
   e.outcome = Outcome::Undecided;
   EXPECT_NE(to_svg(e, options).find("id=\"cells\""), std::string::npos);
+}
+
+TEST(Svg, LeavesHolesInFaces) {
+  SvgOptions options = bare();
+  options.faces = true;
+  const std::string svg = to_svg(encased::run({"x^2 + y^2 - 1/2", "x^2 + y^2 - 1/8"}), options);
+  EXPECT_NE(svg.find("<g id=\"faces\" fill-rule=\"evenodd\">"), std::string::npos);
+  // The region with one hole, a ring, and a disc without.
+  std::vector<int> boundaries;
+  static const std::regex face(" d=\"([^\"]*)\"><title>face");
+  for (std::sregex_iterator k(svg.begin(), svg.end(), face), end; k != end; ++k)
+    boundaries.push_back(count((*k)[1], "M"));
+  std::sort(boundaries.begin(), boundaries.end());
+  EXPECT_EQ(boundaries, (std::vector<int>{1, 2, 2}));
+}
+
+struct Label {
+  double x, y;
+  std::string text;
+};
+
+std::vector<Label> labels(const std::string& svg) {
+  static const std::regex text("<text x=\"([^\"]*)\" y=\"([^\"]*)\" font-size[^>]*>([fev][0-9]+)<");
+  std::vector<Label> found;
+  for (std::sregex_iterator k(svg.begin(), svg.end(), text), end; k != end; ++k)
+    found.push_back({std::stod((*k)[1]), std::stod((*k)[2]), (*k)[3]});
+  return found;
+}
+
+TEST(Svg, LabelsWhatHasRoom) {
+  SvgOptions options = bare();
+  options.labels = true;
+  const Encasement e = sample::circle_and_line();
+  const std::string svg = to_svg(e, options);
+  EXPECT_EQ(nesting_error(svg), "");
+  EXPECT_NE(svg.find("id=\"cells\""), std::string::npos);
+  const std::vector<Label> found = labels(svg);
+  std::set<std::string> texts;
+  for (const Label& label : found) texts.insert(label.text);
+  const Arrangement a = arrange(e).value();
+  EXPECT_EQ(texts.size(), found.size());
+  EXPECT_EQ(found.size(), a.faces.size() - 1 + a.edges.size() + a.vertices.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT(std::max(std::fabs(found[i].x - found[j].x), std::fabs(found[i].y - found[j].y)), 6)
+          << found[i].text << " on " << found[j].text;
+  // Faces are labelled inside.
+  const PointLocator locator(e, a);
+  for (const Label& label : found)
+    if (label.text[0] == 'f') {
+      const Point<2> at = {(label.x - 208) / 200, (208 - label.y + 4) / 200};
+      EXPECT_EQ("f" + std::to_string(locator.locate(at).index), label.text);
+    }
+  // None where nothing is certified, and only those that find room in a small picture.
+  Encasement undecided = e;
+  undecided.outcome = Outcome::Undecided;
+  EXPECT_TRUE(labels(to_svg(undecided, options)).empty());
+  options.size = 50;
+  EXPECT_LT(labels(to_svg(e, options)).size(), found.size());
+}
+
+TEST(Svg, FindsTheWidestPlaceOfARegion) {
+  const std::vector<Point<2>> square = {{0, 0}, {100, 0}, {100, 100}, {0, 100}};
+  Clearing clearing = largest_clearing({square});
+  EXPECT_NEAR(clearing.radius, 50, 1);
+  EXPECT_NEAR(clearing.center[0], 50, 1);
+  // A hole in the middle: the corners have the most room, 20 / (1 + 1 / sqrt 2).
+  clearing = largest_clearing({square, {{20, 20}, {80, 20}, {80, 80}, {20, 80}}});
+  EXPECT_GT(clearing.radius, 10);
+  EXPECT_LT(clearing.radius, 12.5);
+  // A corridor with a room at its end.
+  clearing = largest_clearing({{{0, 0}, {300, 0}, {300, 4}, {30, 4}, {30, 30}, {0, 30}}});
+  EXPECT_NEAR(clearing.center[0], 15, 2);
+  EXPECT_NEAR(clearing.center[1], 15, 2);
+  EXPECT_NEAR(clearing.radius, 15, 1);
 }
 
 TEST(Svg, MarksRoundCoordinates) {

@@ -20,7 +20,8 @@ except ImportError as error:
     print("skipped:", error)
     sys.exit(77)
 
-BLOCKS = ["cells", "curves", "points", "critical_regions", "unresolved"]
+BLOCKS = ["cells", "curves", "points", "critical_regions", "unresolved", "faces", "edges",
+          "vertices"]
 
 
 def expect(condition, message):
@@ -71,14 +72,23 @@ def check_valid(data, what):
     expect(not bad, f"{what}: invalid cells (number, state): {bad[:10]}")
 
 
+def corners_of(data, k):
+    points = data.GetCell(k).GetPoints()
+    return [points.GetPoint(i) for i in range(points.GetNumberOfPoints())]
+
+
+def area_along(points):
+    """What the way along points adds to the area on its left, if it is continued to the first."""
+    return sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(points, points[1:])) / 2
+
+
 def area(data):
     total = 0.0
     for k in range(data.GetNumberOfCells()):
-        points = data.GetCell(k).GetPoints()
-        corners = [points.GetPoint(i) for i in range(points.GetNumberOfPoints())]
-        twice = sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(corners, corners[1:] + corners[:1]))
-        expect(twice > 0, f"polygon {k} is not counter-clockwise")
-        total += twice / 2
+        corners = corners_of(data, k)
+        part = area_along(corners + corners[:1])
+        expect(part > 0, f"polygon {k} is not counter-clockwise")
+        total += part
     return total
 
 
@@ -145,6 +155,57 @@ def check_result(directory, result):
     expect_equal(critical.GetNumberOfPolys(), boxes, "boxes of critical regions")
     places = [p for p in result["degenerate"] + result["undecided"] if p["box"]]
     expect_equal(blocks["unresolved"].GetNumberOfPolys(), len(places), "unresolved boxes")
+    check_arrangement(blocks, result)
+
+
+def check_arrangement(blocks, result):
+    faces, edges, vertices = (blocks[name] for name in ["faces", "edges", "vertices"])
+    arrangement = result.get("arrangement")
+    expect_equal(arrangement is not None, result["status"] == "certified", "arrangement")
+    if arrangement is None:
+        for data in faces, edges, vertices:
+            expect_equal(data.GetNumberOfCells(), 0, "parts of an unknown arrangement")
+        return
+
+    expect_equal(edges.GetNumberOfLines(), len(arrangement["edges"]), "edges")
+    of_edges = edges.GetCellData()
+    curve = [-1 if e["curve"] is None else e["curve"] for e in arrangement["edges"]]
+    expect_equal(column(of_edges, "curve"), curve, "curves of edges")
+    for k, name in enumerate(["left_face", "right_face"]):
+        expect_equal(column(of_edges, name), [e["faces"][k] for e in arrangement["edges"]], name)
+    expect_equal(vertices.GetNumberOfVerts(), len(arrangement["vertices"]), "vertices")
+    for k, vertex in enumerate(arrangement["vertices"]):
+        expect_equal(vertices.GetPoint(k)[:2], (vertex["x"], vertex["y"]), "vertex")
+    expect_equal(column(vertices.GetPointData(), "kind_name"),
+                 [vertex["kind"] for vertex in arrangement["vertices"]], "kinds of vertices")
+
+    of_faces = faces.GetCellData()
+    pieces = column(of_faces, "piece")
+    expect_equal(sorted(set(pieces)), list(range(len(arrangement["pieces"]))), "pieces of faces")
+    expect_equal(column(of_faces, "cell"), [arrangement["pieces"][k][0] for k in pieces], "cells")
+    ids = column(of_faces, "id")
+    signs = [of_faces.GetArrayName(k) for k in range(of_faces.GetNumberOfArrays())]
+    signs = [column(of_faces, name) for name in signs if name.startswith("sign_")]
+    areas = {}
+    whole = region_area(result)
+    for k, face in enumerate(ids):
+        expect_equal([s[k] for s in signs], arrangement["faces"][face]["signs"], "signs of a face")
+        corners = corners_of(faces, k)
+        expect_equal(len(corners), 3, "corners of a triangle")
+        part = area_along(corners + corners[:1])
+        expect(part > -1e-9 * whole, f"triangle {k} is turned over")
+        areas[face] = areas.get(face, 0.0) + part
+    # Each face has the area that the polylines around it enclose.
+    along = [area_along(corners_of(edges, k)) for k in range(len(curve))]
+    for face in arrangement["faces"]:
+        if face["id"] == arrangement["outside"]:
+            continue
+        half_edges = sum(face["holes"], face["outer"])
+        expected = sum(along[h // 2] * (-1 if h % 2 else 1) for h in half_edges)
+        expect(abs(areas[face["id"]] - expected) <= 1e-9 * whole,
+               f"area of face {face['id']}: {areas[face['id']]}, expected {expected}")
+        expect(expected > 0, f"face {face['id']} has no area")
+    expect(abs(sum(areas.values()) / whole - 1) < 1e-9, "the faces do not fill the region")
 
 
 def check_history(directory, result):

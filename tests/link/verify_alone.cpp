@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Links encase_verify and encase_common, and nothing of the search: verification stands alone.
+// Links encase_verify, encase_arrangement and encase_common, and nothing of the search:
+// verification stands alone.
 #include <cstdio>
 
 #include "encase/verify.hpp"

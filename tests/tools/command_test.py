@@ -59,7 +59,8 @@ class Usage(CommandTest):
     def test_help_of_curves_names_every_option(self):
         run = encase("curves", "--help")
         self.encased(run, 0)
-        for option in ("-e", "--region", "--json", "--svg", "--faces", "--mesh", "-o", "--history",
+        for option in ("-e", "--region", "--json", "--svg", "--faces", "--labels", "--mesh", "-o",
+                       "--history",
                        "--summary", "--relaxed", "--perturb", "--seed", "--max-cells",
                        "--max-seconds", "--max-bits", "--start-bits", "--threads", "-q", "-v"):
             self.assertIn(option, run.stdout)
@@ -310,7 +311,26 @@ class Files(CommandTest):
         run = encase(*circle, "--svg", "-")
         self.encased(run, 0)
         self.assertNotIn("<title>face ", run.stdout)
-        self.refused(encase(*circle, "--faces"), 1, "--svg")
+        self.refused(encase(*circle, "--faces"), 1, "--svg", "--mesh")
+
+    def test_labels_in_the_picture(self):
+        circle = ("curves", "-e", "x^2 + y^2 = 1", "--region", "-2 2 -2 2", "-q")
+        run = encase(*circle, "--svg", "-", "--labels")
+        self.encased(run, 0)
+        for label in ("f1", "f2", "v0", "v3", "e0"):
+            self.assertIn(f">{label}</text>", run.stdout)
+        self.assertIn('id="cells"', run.stdout)
+        self.refused(encase(*circle, "--labels"), 1, "--svg")
+
+    def test_arrangement_in_the_result(self):
+        run = encase("curves", self.curves(), "-q", "--json", "-")
+        self.encased(run, 0)
+        arrangement = json.loads(run.stdout)["arrangement"]
+        self.assertEqual([len(arrangement[key]) for key in ("vertices", "edges", "faces",
+                                                            "components")], [8, 11, 5, 1])
+        run = encase("curves", self.curves(), "-q", "--json", "-", "--max-cells", "1")
+        self.encased(run, 4)
+        self.assertNotIn("arrangement", json.loads(run.stdout))
 
     def test_region_option_overrides_the_files(self):
         run = encase("curves", self.curves(), "--region", "polygon (0,0) (2,0) (0,2)", "--summary")
@@ -360,6 +380,11 @@ class Files(CommandTest):
                 self.assertTrue(os.path.exists(path))
             else:
                 self.refused(run, 1, "built without " + name)
+        if run.returncode == 0:
+            faces = self.path("faces.om")
+            self.encased(encase("curves", self.curves(), "-q", "--mesh", faces, "--faces"), 0)
+            with open(path, "rb") as cells, open(faces, "rb") as pieces:
+                self.assertNotEqual(cells.read(), pieces.read())
 
     def test_budget_leaves_an_undecided_result(self):
         path = self.path("a.json")
@@ -413,6 +438,40 @@ class Check(CommandTest):
         result = self.result()
         result["crossings"].pop()
         self.assertEqual(self.checked(result).returncode, 1)
+
+    def test_result_without_its_arrangement(self):
+        result = self.result()
+        del result["arrangement"]
+        self.encased(self.checked(result), 0)
+
+    def test_changed_arrangement(self):
+        def with_other_signs(arrangement):
+            for face in arrangement["faces"]:
+                face["signs"] = [-sign for sign in face["signs"]]
+
+        def with_another_parent(arrangement):
+            arrangement["faces"][-1]["parent"] = 1
+
+        def with_a_point_moved(arrangement):
+            arrangement["vertices"][4]["x"] += 1e-9
+
+        def with_another_strand(arrangement):
+            arrangement["edges"][0]["strands"].reverse()
+
+        for change in (with_other_signs, with_another_parent, with_a_point_moved,
+                       with_another_strand):
+            with self.subTest(change.__name__):
+                result = self.result()
+                change(result["arrangement"])
+                run = self.checked(result)
+                self.assertEqual(run.returncode, 1, run.stdout)
+                self.assertIn("In the stored arrangement, entry ", run.stdout)
+                self.assertRegex(run.stderr, "^encase: .*not proved: .*objection")
+
+    def test_arrangement_that_is_none(self):
+        result = self.result()
+        result["arrangement"]["faces"][1]["outer"].pop()
+        self.refused(self.checked(result), 1, r"arrangement\.faces")
 
     def test_no_json(self):
         self.refused(encase("check", self.path("r.json", "hello")), 1, "r.json")

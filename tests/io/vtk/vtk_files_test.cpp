@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
@@ -13,11 +14,15 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
+#include <vector>
 
+#include "encase/arrangement.hpp"
 #include "encase/vtk.hpp"
 #include "tests/sample_encasements.hpp"
 
@@ -105,6 +110,83 @@ TEST_F(VtkFiles, HoldCurvesAndCrossings) {
   vtkPolyData* critical = read("out/result/critical_regions.vtp");
   ASSERT_EQ(critical->GetNumberOfPolys(), 1);
   EXPECT_EQ(integer(critical->GetCellData(), "kind", 0), -1);
+}
+
+TEST_F(VtkFiles, HoldFacesAsTriangles) {
+  const Encasement e = sample::circle_and_line();
+  const Arrangement a = arrange(e).value();
+  ASSERT_FALSE(write_vtk(e, path("out")));
+  vtkPolyData* faces = read("out/result/faces.vtp");
+  vtkFieldData* data = faces->GetCellData();
+  std::vector<double> areas(a.faces.size());
+  std::set<int> pieces;
+  for (int k = 0; k < faces->GetNumberOfPolys(); ++k) {
+    const int piece = integer(data, "piece", k);
+    pieces.insert(piece);
+    const int face = integer(data, "id", k);
+    ASSERT_GT(face, 0);
+    ASSERT_LT(face, static_cast<int>(a.faces.size()));
+    EXPECT_EQ(integer(data, "certified", k), 1);
+    EXPECT_EQ(a.pieces[piece].face, face);
+    EXPECT_EQ(integer(data, "cell", k), a.pieces[piece].cell);
+    EXPECT_EQ(integer(data, "sign_circle", k), static_cast<int>(a.faces[face].signs[0]));
+    EXPECT_EQ(integer(data, "sign_line", k), static_cast<int>(a.faces[face].signs[1]));
+    vtkPoints* corners = faces->GetCell(k)->GetPoints();
+    ASSERT_EQ(corners->GetNumberOfPoints(), 3);
+    double p[3], q[3], r[3];
+    corners->GetPoint(0, p);
+    corners->GetPoint(1, q);
+    corners->GetPoint(2, r);
+    const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
+    EXPECT_GT(area, -1e-15);
+    areas[face] += area;
+  }
+  EXPECT_EQ(pieces.size(), 9u);
+  double disc = 0, all = 0;
+  for (std::size_t f = 1; f < areas.size(); ++f) {
+    EXPECT_GT(areas[f], 0.1);
+    all += areas[f];
+    if (a.faces[f].signs[0] == Sign::Negative) disc += areas[f];
+  }
+  EXPECT_NEAR(all, 4, 1e-12);
+  EXPECT_NEAR(disc, std::acos(-1.0) / 2, 1e-3);
+}
+
+TEST_F(VtkFiles, HoldEdgesAndVertices) {
+  const Encasement e = sample::circle_and_line();
+  const Arrangement a = arrange(e).value();
+  ASSERT_FALSE(write_vtk(e, path("out")));
+  vtkPolyData* edges = read("out/result/edges.vtp");
+  ASSERT_EQ(edges->GetNumberOfLines(), 11);
+  vtkFieldData* data = edges->GetCellData();
+  for (int k = 0; k < 11; ++k) {
+    EXPECT_EQ(integer(data, "id", k), k);
+    EXPECT_EQ(integer(data, "curve", k), a.edges[k].curve);
+    EXPECT_EQ(integer(data, "kind", k), a.edges[k].curve < 0 ? 2 : 0);
+    EXPECT_EQ(integer(data, "left_face", k), a.faces_at(k)[0]);
+    EXPECT_EQ(integer(data, "right_face", k), a.faces_at(k)[1]);
+  }
+  vtkPolyData* vertices = read("out/result/vertices.vtp");
+  ASSERT_EQ(vertices->GetNumberOfVerts(), 8);
+  for (int k = 0; k < 8; ++k) {
+    double at[3];
+    vertices->GetPoint(k, at);
+    EXPECT_EQ(at[0], a.vertices[k].point[0]);
+    EXPECT_EQ(at[1], a.vertices[k].point[1]);
+    EXPECT_EQ(integer(vertices->GetPointData(), "kind", k), static_cast<int>(a.vertices[k].kind));
+  }
+  EXPECT_EQ(string(vertices->GetPointData(), "kind_name", 0), "corner");
+  EXPECT_EQ(integer(vertices->GetPointData(), "curve", 0), -1);
+  EXPECT_EQ(string(vertices->GetPointData(), "curve_name", 7), "circle, line");
+}
+
+TEST_F(VtkFiles, HaveNoFacesWhereTheAnswerIsNotCertified) {
+  Encasement e = sample::circle_and_line();
+  e.outcome = Outcome::Undecided;
+  ASSERT_FALSE(write_vtk(e, path("out")));
+  for (const char* name : {"faces", "edges", "vertices"})
+    EXPECT_EQ(read("out/result/" + std::string(name) + ".vtp")->GetNumberOfCells(), 0) << name;
+  EXPECT_EQ(read("out/result/curves.vtp")->GetNumberOfLines(), 2);
 }
 
 TEST_F(VtkFiles, GiveEveryCurveASignArrayOfItsOwnPlainName) {

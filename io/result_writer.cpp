@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "arrangement_json.hpp"
+#include "encase/result_json.hpp"
+#include "json_writer.hpp"
+#include "names.hpp"
+
+namespace encase {
+namespace {
+
+void put_terms(JsonWriter& w, const Polynomial<2>& polynomial) {
+  w.list(polynomial.terms(), [&](const Polynomial<2>::Term& term) {
+    w.raw("[");
+    w.put(term.exponent[0]), w.raw(","), w.put(term.exponent[1]), w.raw(",");
+    w.put(term.coefficient);
+    w.raw("]");
+  });
+}
+
+void put_region(JsonWriter& w, const Region& region) {
+  if (region.plane) return w.put("plane");
+  w.raw("{\"polygon\":");
+  w.list(region.corners);
+  w.raw("}");
+}
+
+void put_line(JsonWriter& w, const Line& line) {
+  if (line.rational)
+    w.put(*line.rational);
+  else
+    w.put(std::array<double, 3>{line.normal[0], line.normal[1], line.offset});
+}
+
+void put_crossing(JsonWriter& w, const Crossing& crossing, int id) {
+  w.raw("{");
+  w.field("id", id);
+  w.field("curves", crossing.curves);
+  w.field("x", crossing.point[0]);
+  w.field("y", crossing.point[1]);
+  w.field("rounded", crossing.rounded);
+  w.field("box", crossing.box);
+  w.key("cell"), w.put_index(crossing.cell);
+  w.field("location", name_of(kLocations, crossing.location));
+  w.raw("}");
+}
+
+void put_cell(JsonWriter& w, const Cell& cell, int id) {
+  w.raw("{");
+  w.field("id", id);
+  w.field("state", name_of(kCellStates, cell.state));
+  w.field("relaxed", cell.state == CellState::Relaxed);
+  w.field("depth", cell.depth);
+  w.key("lines");
+  w.list(cell.vertices, [&](const Vertex& vertex) { w.put(vertex.line_out); });
+  w.key("vertices");
+  w.list(cell.vertices, [&](const Vertex& vertex) { w.put(vertex.point); });
+  w.raw(",\"cuts\":[");
+  bool first = true;
+  for (std::size_t k = 0; k < cell.vertices.size(); ++k) {
+    const Vertex& vertex = cell.vertices[k];
+    if (vertex.line_in != vertex.line_out && vertex.parameter == 0) continue;
+    w.raw(first ? "[" : ",[");
+    first = false;
+    w.put(static_cast<int>(k)), w.raw(","), w.put(vertex.parameter), w.raw("]");
+  }
+  w.raw("]");
+  w.field("word", cell.word);
+  w.key("branches");
+  w.list(cell.branches, [&](const Branch& branch) {
+    w.put(std::array<int, 3>{branch.curve, branch.from, branch.to});
+  });
+  w.key("crossing"), w.put_index(cell.crossing);
+  w.key("loop_certificates");
+  w.list(cell.loop_certificates, [&](const LoopCertificate& certificate) {
+    w.raw("{");
+    w.field("critical", certificate.critical_region);
+    w.field("from", certificate.from);
+    w.field("to", certificate.to);
+    w.raw("}");
+  });
+  w.raw("}");
+}
+
+void put_unresolved(JsonWriter& w, const std::vector<Unresolved>& places) {
+  w.lines(places, [&](const Unresolved& place) {
+    w.raw("{");
+    w.field("kind", name_of(kUnresolvedKinds, place.kind));
+    w.key("box");
+    if (place.has_box)
+      w.put(place.box);
+    else
+      w.raw("null");
+    w.field("curves", place.curves);
+    w.field("proved", place.proved);
+    w.field("reason", place.reason);
+    w.raw("}");
+  });
+}
+
+void put_covers(JsonWriter& w, const Encasement& e) {
+  w.raw("{");
+  if (!e.shared_cover.tokens.empty()) {
+    w.raw("\"shared\":{");
+    w.field("root", e.shared_cover.root);
+    w.field("tokens", e.shared_cover.tokens);
+    w.key("alive"), w.list(e.shared_cover.alive);
+    w.raw("},\n");
+  }
+  w.raw("\"crossings\":");
+  w.lines(e.crossing_covers, [&](const CrossingCover& cover) {
+    w.raw("{");
+    w.field("curves", cover.curves);
+    w.field("root", cover.root);
+    w.field("tokens", cover.tokens);
+    w.raw("}");
+  });
+  w.raw(",\n\"critical\":");
+  w.lines(e.critical_covers, [&](const CriticalCover& cover) {
+    w.raw("{");
+    w.field("curve", cover.curve);
+    w.field("root", cover.root);
+    w.field("tokens", cover.tokens);
+    w.raw("}");
+  });
+  w.raw("}");
+}
+
+/// The counts of pairs as well unless there is one pair at most: then they follow from its cover.
+void put_statistics(JsonWriter& w, const Statistics& s, bool with_pairs) {
+  w.raw("{\"decisions\":{");
+  w.field("by_double", s.decisions.by_double);
+  w.field("by_mpfr", s.decisions.by_mpfr);
+  w.field("by_exact", s.decisions.by_exact);
+  w.field("undecided", s.decisions.undecided);
+  w.raw("}");
+  if (with_pairs) {
+    w.field("pairs_met", s.pairs_met);
+    w.field("pairs_isolated", s.pairs_isolated);
+    w.field("filter_failures", s.filter_failures);
+  }
+  w.field("root_boxes", s.root_boxes);
+  w.field("critical_boxes", s.critical_boxes);
+  w.field("restrictions", s.restrictions);
+  w.field("expansions", s.expansions);
+  w.field("mpfr_expansions", s.mpfr_expansions);
+  w.field("candidate_lines", s.candidate_lines);
+  w.field("splits", s.splits);
+  w.field("loop_splits", s.loop_splits);
+  w.raw("}");
+}
+
+}  // namespace
+
+std::string to_json(const Encasement& e, const Arrangement* arrangement) {
+  JsonWriter w;
+  w.raw("{\n");
+  w.field("format", "encase-result");
+  const auto top = [&w](const char* key) {
+    w.raw(",\n");
+    w.key(key);
+  };
+  top("version"), w.put(kResultVersion);
+  top("command"), w.put("curves");
+  top("status"), w.put(name_of(kOutcomes, e.outcome));
+  top("input"), w.raw("{\"curves\":");
+  w.lines(e.input, [&](const NamedCurve& curve) {
+    w.raw("{");
+    w.field("name", curve.name);
+    w.key("terms"), put_terms(w, curve.polynomial);
+    w.raw("}");
+  });
+  w.field("delta", e.perturbation);
+  w.field("seed", e.seed);
+  w.raw("}");
+  top("curves");
+  w.lines(e.curves, [&](const Curve& curve) {
+    w.raw("{");
+    w.field("name", curve.name);
+    w.key("terms"), put_terms(w, curve.polynomial);
+    w.field("sources", curve.sources);
+    w.raw("}");
+  });
+  top("region"), put_region(w, e.region);
+  top("region_used"), put_region(w, e.region_used);
+  top("lines"), w.lines(e.lines, [&](const Line& line) { put_line(w, line); });
+  int id = 0;
+  top("crossings");
+  w.lines(e.crossings, [&](const Crossing& crossing) { put_crossing(w, crossing, id++); });
+  id = 0;
+  top("cells"), w.lines(e.cells, [&](const Cell& cell) { put_cell(w, cell, id++); });
+  top("crossings_on_lines");
+  w.lines(e.line_crossings, [&](const LineCrossing& crossing) {
+    w.raw("{");
+    w.field("line", crossing.line);
+    w.field("curve", crossing.curve);
+    w.field("interval", std::array<double, 2>{crossing.lo, crossing.hi});
+    w.raw("}");
+  });
+  top("critical");
+  w.lines(e.critical_regions, [&](const CriticalRegion& region) {
+    w.raw("{");
+    w.field("curve", region.curve);
+    w.field("sign", region.sign);
+    w.key("boxes"), w.list(region.boxes);
+    w.raw("}");
+  });
+  top("covers"), put_covers(w, e);
+  top("history");
+  w.lines(e.history, [&](const Split& split) {
+    w.put(std::array<int, 3>{split.line, split.negative, split.positive});
+  });
+  top("infinity");
+  w.lines(e.infinity, [&](const InfinityPiece& piece) {
+    w.raw("{");
+    w.field("chart", piece.chart);
+    w.field("lo", piece.lo);
+    w.field("hi", piece.hi);
+    w.key("curve"), w.put_index(piece.curve);
+    w.raw("}");
+  });
+  top("degenerate"), put_unresolved(w, e.degenerate);
+  top("undecided"), put_unresolved(w, e.undecided);
+  if (arrangement) top("arrangement"), put_arrangement(w, *arrangement);
+  top("statistics"), put_statistics(w, e.statistics, !e.shared_cover.tokens.empty());
+  w.raw("\n}\n");
+  return w.take();
+}
+std::string summary_json(const Encasement& e, const Arrangement* arrangement) {
+  const auto counted = std::count_if(e.crossings.begin(), e.crossings.end(), [](const Crossing& c) {
+    return c.location != Location::Outside;
+  });
+  const auto relaxed = std::count_if(e.cells.begin(), e.cells.end(), [](const Cell& cell) {
+    return cell.state == CellState::Relaxed;
+  });
+  JsonWriter w;
+  w.raw("{");
+  w.field("status", name_of(kOutcomes, e.outcome));
+  w.field("curves", static_cast<int>(e.curves.size()));
+  w.field("crossings", static_cast<std::int64_t>(counted));
+  w.field("cells", static_cast<int>(e.cells.size()));
+  w.field("relaxed_cells", static_cast<std::int64_t>(relaxed));
+  w.field("pairs_met", e.statistics.pairs_met);
+  w.field("pairs_isolated", e.statistics.pairs_isolated);
+  w.field("filter_failures", e.statistics.filter_failures);
+  w.field("seconds", e.seconds);
+  if (arrangement) {
+    w.field("vertices", static_cast<int>(arrangement->vertices.size()));
+    w.field("edges", static_cast<int>(arrangement->edges.size()));
+    // The outside of the region is no face that anyone counts.
+    w.field("faces", static_cast<int>(arrangement->faces.size()) - 1);
+    w.field("components", static_cast<int>(arrangement->components.size()));
+  }
+  w.raw("}");
+  return w.take();
+}
+
+}  // namespace encase

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vtkAbstractArray.h>
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "encase/encasement.hpp"
+
+namespace encase {
+
+/// What every file says about the result as a whole: names and values.
+std::vector<std::pair<const char*, std::vector<std::string>>> field_data(
+    const Encasement& encasement);
+
+/// A data set with attributes for each of its points or cells, filled row by row.
+class VtkTable {
+ public:
+  VtkTable() {
+    points_->SetDataTypeToDouble();
+    data_->SetPoints(points_);
+  }
+
+  /// Points for triangles that share them.
+  void points(const std::vector<Point<2>>& all) {
+    for (const Point<2>& p : all) point(p);
+  }
+  void triangle(const std::array<int, 3>& corners) {
+    polygons_->InsertNextCell(3);
+    for (const int k : corners) polygons_->InsertCellPoint(k);
+  }
+  /// Primitives with points of their own.
+  void polygon(const std::vector<Point<2>>& corners) { primitive(polygons_, corners); }
+  void polyline(const std::vector<Point<2>>& line) { primitive(lines_, line); }
+  void vertex(const Point<2>& p) { primitive(vertices_, {p}); }
+  void rectangle(const Box<2>& b) {
+    polygon({{b.lo[0], b.lo[1]}, {b.hi[0], b.lo[1]}, {b.hi[0], b.hi[1]}, {b.lo[0], b.hi[1]}});
+  }
+
+  vtkIntArray* integers(const std::string& name) { return add<vtkIntArray>(name); }
+  vtkDoubleArray* doubles(const std::string& name) { return add<vtkDoubleArray>(name); }
+  vtkStringArray* strings(const std::string& name) { return add<vtkStringArray>(name); }
+
+  /// The data set; attributes belong to its points if `of_points`, else to its cells.
+  vtkPolyData* finish(const Encasement& encasement, bool of_points);
+
+ private:
+  vtkIdType point(const Point<2>& p) { return points_->InsertNextPoint(p[0], p[1], 0); }
+  void primitive(vtkCellArray* list, const std::vector<Point<2>>& points) {
+    list->InsertNextCell(static_cast<int>(points.size()));
+    for (const Point<2>& p : points) list->InsertCellPoint(point(p));
+  }
+  template <class Array>
+  Array* add(const std::string& name) {
+    vtkNew<Array> array;
+    array->SetName(name.c_str());
+    arrays_.emplace_back(array);
+    return array;
+  }
+  vtkNew<vtkPolyData> data_;
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> vertices_, lines_, polygons_;
+  std::vector<vtkSmartPointer<vtkAbstractArray>> arrays_;
+};
+
+}  // namespace encase
