@@ -2,6 +2,7 @@
 #include "curves.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "common/parallel.hpp"
 #include "encase/arrangement.hpp"
 #include "encase/curves_file.hpp"
 #include "encase/result_json.hpp"
@@ -128,20 +130,35 @@ Result<std::string> summary(const Encasement& encasement) {
   return text;
 }
 
-Status write_report(const CurvesRequest& r, const Encasement& encasement) {
+std::string threads_report(int threads) {
+  return has_threads()
+             ? fmt::format("threads              at most {}\n", threads)
+             : fmt::format("threads              1 ({} allowed; built without oneTBB)\n", threads);
+}
+
+/// Ends the progress before it prints.
+Status write_report(const CurvesRequest& r, const Encasement& encasement,
+                    std::optional<Progress>& progress) {
   std::string text = report(encasement);
-  if (r.verbose) text += statistics_report(encasement);
+  if (r.verbose) text += statistics_report(encasement) + threads_report(r.options.threads);
   if (r.summary) {
     const Result<std::string> counts = summary(encasement);
+    progress.reset();
     if (!counts) return counts.error();
     if (const Status status = print(counts.value())) return status;
     if (r.verbose) std::fputs(text.c_str(), stderr);
     return {};
   }
+  progress.reset();
   if (r.quiet) return {};
   if (r.json != "-" && r.svg != "-") return print(text);
   std::fputs(text.c_str(), stderr);
   return {};
+}
+
+/// Whether the progress would be shown in the middle of an output.
+bool prints_on_terminal(const CurvesRequest& r) {
+  return (r.json == "-" || r.svg == "-") && isatty(STDOUT_FILENO);
 }
 
 }  // namespace
@@ -152,15 +169,14 @@ ExitCode run_curves(CurvesRequest request) {
   const auto input = read(request);
   if (!input) return fail(input.error());
 
-  std::optional<Progress> progress(std::in_place, !request.quiet);
+  std::optional<Progress> progress(std::in_place, !request.quiet && !prints_on_terminal(request));
   request.options.progress = progress->callback();
   const auto result = encase(input.value().curves, input.value().region, request.options);
+  progress->begin("writing the result");
+  Status status = result ? write_files(request, result.value()) : Status(result.error());
+  if (!status) status = write_report(request, result.value(), progress);
   progress.reset();
-  if (!result) return fail(result.error());
-
-  if (const Status status = write_files(request, result.value())) return fail(*status);
-  if (const Status status = write_report(request, result.value())) return fail(*status);
-  return exit_code(result.value().outcome);
+  return status ? fail(*status) : exit_code(result.value().outcome);
 }
 
 }  // namespace encase
