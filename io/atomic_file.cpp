@@ -8,6 +8,8 @@
 #include <atomic>
 #include <cerrno>
 #include <filesystem>
+#include <mutex>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -24,12 +26,36 @@ Error cannot_write(const std::string& path, int code) {
   return cannot_write(path, std::generic_category().message(code));
 }
 
-// Short whatever the target's name is, so that a name the file system accepts never fails here.
-std::string temporary_name(const fs::path& directory) {
+/// Held while a temporary appears, or is put in its place or removed.
+std::mutex temporaries_mutex;
+
+/// Those that exist.
+std::set<std::string>& temporaries() {
+  static std::set<std::string> paths;
+  return paths;
+}
+
+// A new temporary file or directory, as `make` says, which returns a negative number where it fails
+// and sets errno. Its name is short whatever the target's is, so that a name the file system
+// accepts never fails here.
+template <class Make>
+int make_temporary(const fs::path& directory, std::string* path, Make make) {
   static std::atomic<unsigned> count{0};
   const std::string name =
       ".encase-" + std::to_string(getpid()) + "-" + std::to_string(count.fetch_add(1)) + ".tmp";
-  return (directory / name).string();
+  *path = (directory / name).string();
+  std::lock_guard lock(temporaries_mutex);
+  const int result = make(path->c_str());
+  if (result >= 0) temporaries().insert(*path);
+  return result;
+}
+
+// `finish` puts a temporary in its place or removes it.
+template <class Finish>
+void finish_temporary(const std::string& path, Finish finish) {
+  std::lock_guard lock(temporaries_mutex);
+  finish();
+  temporaries().erase(path);
 }
 
 // Why nothing can be put into a directory, if that can be told before trying.
@@ -94,17 +120,28 @@ Status write_file(const std::string& path, std::string_view contents) {
   const fs::path parent = parent_of(target);
   if (Status bad = check_parent(path, parent)) return bad;
 
-  const std::string temporary = temporary_name(parent);
-  const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  std::string temporary;
+  const int file = make_temporary(parent, &temporary, [](const char* name) {
+    return open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  });
   if (file < 0) return cannot_write(path, errno);
   if (exists) static_cast<void>(fchmod(file, existing.st_mode & 07777));
   int failure = write_and_close(file, contents);
-  if (!failure && rename(temporary.c_str(), target.c_str()) != 0) failure = errno;
-  if (failure) {
-    unlink(temporary.c_str());
-    return cannot_write(path, failure);
-  }
+  finish_temporary(temporary, [&] {
+    if (!failure && rename(temporary.c_str(), target.c_str()) != 0) failure = errno;
+    if (failure) unlink(temporary.c_str());
+  });
+  if (failure) return cannot_write(path, failure);
   return std::nullopt;
+}
+
+void abandon_writes() {
+  temporaries_mutex.lock();  // for ever
+  std::error_code ignored;
+  for (const std::string& path : temporaries())
+    // (Another thread may be filling a directory.)
+    for (int tries = 0; tries < 1000 && fs::exists(path, ignored); ++tries)
+      fs::remove_all(path, ignored);
 }
 
 AtomicDirectory::AtomicDirectory(std::string path, std::string temporary)
@@ -114,8 +151,11 @@ AtomicDirectory::AtomicDirectory(AtomicDirectory&& other) noexcept
     : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})) {}
 
 AtomicDirectory::~AtomicDirectory() {
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+  if (temporary_.empty()) return;
+  finish_temporary(temporary_, [&] {
+    std::error_code ignored;
+    fs::remove_all(temporary_, ignored);
+  });
 }
 
 Result<AtomicDirectory> AtomicDirectory::create(const std::string& path) {
@@ -127,22 +167,27 @@ Result<AtomicDirectory> AtomicDirectory::create(const std::string& path) {
     return cannot_write(path, "it is not a directory");
   const fs::path parent = parent_of(target);
   if (Status bad = check_parent(path, parent)) return *bad;
-  std::string temporary = temporary_name(parent);
-  if (mkdir(temporary.c_str(), 0777) != 0) return cannot_write(path, errno);
+  std::string temporary;
+  if (make_temporary(parent, &temporary, [](const char* name) { return mkdir(name, 0777); }) < 0)
+    return cannot_write(path, errno);
   return AtomicDirectory(path, std::move(temporary));
 }
 
 Status AtomicDirectory::commit() {
   std::error_code failure;
   if (!fs::exists(path_, failure)) {
-    fs::rename(temporary_, path_, failure);
-    if (failure) return cannot_write(path_, failure.message());
+    finish_temporary(temporary_, [&] {
+      fs::rename(temporary_, path_, failure);
+      std::error_code ignored;
+      if (failure) fs::remove_all(temporary_, ignored);
+    });
     temporary_.clear();
-    return std::nullopt;
-  }
-  for (const fs::directory_entry& entry : fs::directory_iterator(temporary_, failure)) {
-    fs::rename(entry.path(), fs::path(path_) / entry.path().filename(), failure);
-    if (failure) break;
+  } else {
+    std::lock_guard lock(temporaries_mutex);
+    for (const fs::directory_entry& entry : fs::directory_iterator(temporary_, failure)) {
+      fs::rename(entry.path(), fs::path(path_) / entry.path().filename(), failure);
+      if (failure) break;
+    }
   }
   if (failure) return cannot_write(path_, failure.message());
   return std::nullopt;

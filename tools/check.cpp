@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "encase/result_json.hpp"
 #include "encase/verify.hpp"
 #include "output.hpp"
+#include "progress.hpp"
 
 namespace encase {
 namespace {
@@ -21,15 +24,18 @@ std::string verdict(const Encasement& encasement, std::int64_t claims) {
 
 }  // namespace
 
-ExitCode run_check(const std::string& file, bool quiet) {
+ExitCode run_check(const CheckRequest& request) {
+  const auto& [file, quiet, options] = request;
   const auto text = read_input(file);
   if (!text) return fail(text.error());
   const auto stored = result_from_json(text.value(), file == "-" ? "standard input" : file);
   if (!stored) return fail(stored.error());
-  const Encasement& encasement = stored.value().encasement;
-  const auto& arrangement = stored.value().arrangement;
+  const auto& [encasement, arrangement] = stored.value();
+  std::optional<Progress> progress(std::in_place, !quiet);
+  progress->begin("proving the result again");
   const Verification verification =
-      arrangement ? verify(encasement, *arrangement) : verify(encasement);
+      arrangement ? verify(encasement, *arrangement, options) : verify(encasement, options);
+  progress.reset();
   if (!verification.ok()) {
     std::string objections;
     for (const std::string& objection : verification.objections) objections += objection + "\n";

@@ -2,6 +2,7 @@
 #include "curves.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "common/parallel.hpp"
 #include "encase/arrangement.hpp"
 #include "encase/curves_file.hpp"
 #include "encase/result_json.hpp"
@@ -134,19 +136,34 @@ Status write_files(const CurvesRequest& r, const Answer& answer) {
   return {};
 }
 
-Status write_report(const CurvesRequest& r, const Answer& answer) {
+std::string threads_report(int threads) {
+  return has_threads()
+             ? fmt::format("threads              at most {}\n", threads)
+             : fmt::format("threads              1 ({} allowed; built without oneTBB)\n", threads);
+}
+
+/// Ends the progress before it prints.
+Status write_report(const CurvesRequest& r, const Answer& answer,
+                    std::optional<Progress>& progress) {
   std::string text = report(answer.encasement);
-  if (r.verbose) text += statistics_report(answer.encasement);
+  if (r.verbose) text += statistics_report(answer.encasement) + threads_report(r.options.threads);
   if (r.summary) {
     const std::string counts = summary_json(answer.encasement, answer.arranged());
+    progress.reset();
     if (const Status status = print(counts)) return status;
     if (r.verbose) std::fputs(text.c_str(), stderr);
     return {};
   }
+  progress.reset();
   if (r.quiet) return {};
   if (r.json != "-" && r.svg != "-") return print(text);
   std::fputs(text.c_str(), stderr);
   return {};
+}
+
+/// Whether the progress would be shown in the middle of an output.
+bool prints_on_terminal(const CurvesRequest& r) {
+  return (r.json == "-" || r.svg == "-") && isatty(STDOUT_FILENO);
 }
 
 }  // namespace
@@ -157,17 +174,16 @@ ExitCode run_curves(CurvesRequest request) {
   const auto input = read(request);
   if (!input) return fail(input.error());
 
-  std::optional<Progress> progress(std::in_place, !request.quiet);
+  std::optional<Progress> progress(std::in_place, !request.quiet && !prints_on_terminal(request));
   request.options.progress = progress->callback();
   auto result = encase(input.value().curves, input.value().region, request.options);
+  progress->begin("writing the result");
+  const auto answered = result ? answer(std::move(result).value()) : Result<Answer>(result.error());
+  Status status =
+      answered ? write_files(request, answered.value()) : Status(answered.error());
+  if (!status) status = write_report(request, answered.value(), progress);
   progress.reset();
-  if (!result) return fail(result.error());
-  const auto answered = answer(std::move(result).value());
-  if (!answered) return fail(answered.error());
-
-  if (const Status status = write_files(request, answered.value())) return fail(*status);
-  if (const Status status = write_report(request, answered.value())) return fail(*status);
-  return exit_code(answered.value().encasement.outcome);
+  return status ? fail(*status) : exit_code(answered.value().encasement.outcome);
 }
 
 }  // namespace encase

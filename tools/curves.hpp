@@ -24,7 +24,6 @@ struct CurvesRequest {
   bool summary = false;
   bool quiet = false;
   bool verbose = false;
-  int threads = 1;  ///< accepted, without effect at present
   EncaseOptions options;
 };
 

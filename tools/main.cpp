@@ -2,9 +2,11 @@
 //
 // The command `encase`: options in, one of the subcommands called. docs/command.md is its contract.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <thread>
 
 #include "check.hpp"
 #include "curves.hpp"
@@ -14,9 +16,20 @@
 
 namespace {
 
+constexpr int kMostThreads = 1024;
+
 constexpr char kExitCodes[] =
     "Exit codes: 0 certified, 1 usage or bad input, 2 files, 3 something degenerate is reported,\n"
     "4 something is undecided, 5 internal error.";
+
+void add_threads(CLI::App& command, int& threads, const char* meaning) {
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  threads = std::clamp(processors, 1, kMostThreads);
+  command.add_option("--threads", threads, meaning)
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostThreads))
+      ->default_str("all processors");
+}
 
 void add_curves(CLI::App& app, encase::CurvesRequest& r) {
   CLI::App* c = app.add_subcommand("curves", "Encase plane curves in a convex region");
@@ -52,7 +65,8 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
       ->type_name("N")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  c->add_option("--max-seconds", r.options.max_seconds, "stop after so much CPU time")
+  c->add_option("--max-seconds", r.options.max_seconds,
+                "stop after so much CPU time, of all threads together")
       ->type_name("S")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -64,9 +78,8 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
       ->type_name("N")
       ->check(CLI::Range(53, 1 << 20))
       ->capture_default_str();
-  c->add_option("--threads", r.threads, "accepted; one thread works at present")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
+  add_threads(*c, r.options.threads,
+              "how many may work, of more than two curves; the result is the same for any number");
   c->add_flag("-q", r.quiet, "print no report");
   c->add_flag("-v", r.verbose, "report what each step did");
   c->footer(
@@ -90,11 +103,12 @@ int main(int argc, char** argv) {
   CurvesRequest curves;
   add_curves(app, curves);
 
-  std::string result;
-  bool check_quietly = false;
+  CheckRequest proof;
   CLI::App* check = app.add_subcommand("check", "Prove a result again from its own facts");
-  check->add_option("RESULT", result, "what curves --json wrote; - is standard input")->required();
-  check->add_flag("-q", check_quietly, "print nothing but errors");
+  check->add_option("RESULT", proof.file, "what curves --json wrote; - is standard input")
+      ->required();
+  check->add_flag("-q", proof.quiet, "print nothing but errors");
+  add_threads(*check, proof.options.threads, "how many may work");
   check->footer(kExitCodes);
 
   RandomRequest random;
@@ -111,7 +125,7 @@ int main(int argc, char** argv) {
     return fail({Error::Code::BadInput, message});
   }
   try {
-    if (*check) return run_check(result, check_quietly);
+    if (*check) return run_check(proof);
     if (*generate) return run_random(random);
     return run_curves(curves);
   } catch (const std::bad_alloc&) {

@@ -14,6 +14,10 @@ namespace encase {
 /// the path: a directory, a missing parent, no permission, no space.
 Status write_file(const std::string& path, std::string_view contents);
 
+/// Removes the temporary files and directories of what is being written, in any thread. What is at
+/// work on them then waits for ever: the caller is about to end the process.
+void abandon_writes();
+
 /// A directory of files that are written under a temporary name beside their final place and appear
 /// there when all are complete. The temporary is removed by the destructor.
 class AtomicDirectory {

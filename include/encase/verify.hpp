@@ -18,6 +18,7 @@ struct Verification {
 struct VerifyOptions {
   int max_bits = 848;
   int max_objections = 20;
+  int threads = 1;  ///< how many may work; the verification is the same for any number
 };
 
 /// Re-proves an encasement from its stored facts and the exact input, without the search that found

@@ -1,13 +1,43 @@
 // SPDX-License-Identifier: MIT
 #include "encase/verify.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <iterator>
 
+#include "common/parallel.hpp"
 #include "verify_claims.hpp"
 
 namespace encase {
 
 namespace verification {
+
+void for_each(Claims& claims, std::size_t count,
+              const std::function<void(Claims& part, std::size_t i)>& check) {
+  if (claims.full()) return;
+  // Some hundreds of tasks, and as many for any number of threads.
+  const std::size_t size = std::max<std::size_t>(1, count / 256), tasks = (count + size - 1) / size;
+  std::vector<Verification> reports(tasks);
+  std::atomic<std::size_t> enough = tasks;  // beyond this task's no objection will be kept
+  parallel_for(static_cast<int>(tasks), claims.facts.options.threads, [&](int index) {
+    const auto task = static_cast<std::size_t>(index);
+    if (task > enough) return;
+    Claims part(claims.facts);
+    for (std::size_t i = task * size; i < std::min(count, (task + 1) * size) && !part.full(); ++i)
+      check(part, i);
+    std::size_t known = enough;
+    while (part.full() && task < known && !enough.compare_exchange_weak(known, task)) {
+    }
+    reports[task] = std::move(part.report);
+  });
+  for (Verification& report : reports) {
+    if (claims.full()) return;
+    claims.report.claims += report.claims;
+    for (std::string& objection : report.objections)
+      if (!claims.full()) claims.report.objections.push_back(std::move(objection));
+  }
+}
 
 namespace {
 
@@ -248,7 +278,8 @@ void check_outcome(Claims& claims) {
 
 Verification verify(const Encasement& encasement, const VerifyOptions& options) {
   using namespace verification;
-  Claims claims(encasement, options);
+  Facts facts{encasement, options};
+  Claims claims(facts);
 
   // Index errors and the like first, so that everything below may follow indices freely.
   if (!check_structure(claims)) return claims.report;

@@ -38,7 +38,8 @@ void check_list(Claims& claims, const char* name, const std::vector<T>& stored,
 Verification verify(const Encasement& encasement, const Arrangement& arrangement,
                     const VerifyOptions& options) {
   using namespace verification;
-  Claims claims(encasement, options);
+  Facts facts{encasement, options};
+  Claims claims(facts);
   claims.report = verify(encasement, options);
   if (!claims.report.ok()) return claims.report;
   const Result<Arrangement> arranged = arrange(encasement);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,13 +23,27 @@ inline void append(std::string& text, const std::string& part) { text += part; }
 inline void append(std::string& text, int part) { text += std::to_string(part); }
 inline void append(std::string& text, std::size_t part) { text += std::to_string(part); }
 
-/// What all checks share: the result under test, its curves prepared for questions, the precision
-/// ladder, and the report.
+/// What all checks share: the result under test and its curves prepared for questions.
+struct Facts {
+  const Encasement& result;
+  VerifyOptions options;
+  std::vector<FilteredPolynomial<2>> curves{};
+  std::vector<Box<2>> shared_leaves{};  ///< of the shared cover, as in its lists of curves
+  /// For every split token of the shared cover the token at which its upper half begins; empty if
+  /// there is no proper one.
+  std::vector<std::size_t> upper_half{};
+};
+
+/// The facts, the precision ladder, and the report. Not shared between threads: see `for_each`.
 struct Claims {
-  Claims(const Encasement& encasement, const VerifyOptions& options)
-      : result(encasement),
-        max_objections(options.max_objections > 1 ? options.max_objections : 1) {
-    kernel.max_bits = options.max_bits;
+  explicit Claims(Facts& f)
+      : facts(f),
+        result(f.result),
+        curves(f.curves),
+        shared_leaves(f.shared_leaves),
+        upper_half(f.upper_half),
+        max_objections(f.options.max_objections > 1 ? f.options.max_objections : 1) {
+    kernel.max_bits = f.options.max_bits;
   }
 
   /// Counts a claim that is proved, and objects to one that is not in a sentence made of `parts`.
@@ -48,16 +63,21 @@ struct Claims {
   /// Enough objections: checking more would only take time.
   bool full() const { return static_cast<int>(report.objections.size()) >= max_objections; }
 
+  Facts& facts;
   const Encasement& result;
+  std::vector<FilteredPolynomial<2>>& curves;
+  std::vector<Box<2>>& shared_leaves;
+  std::vector<std::size_t>& upper_half;
   int max_objections;
   Kernel kernel;
-  std::vector<FilteredPolynomial<2>> curves;
-  std::vector<Box<2>> shared_leaves;  ///< of the shared cover, as in its lists of curves
-  /// For every split token of the shared cover the token at which its upper half begins; empty if
-  /// there is no proper one.
-  std::vector<std::size_t> upper_half;
   Verification report;
 };
+
+/// Calls check(part, i) for 0 <= i < count, on several threads, as the options say. `part` has the
+/// facts of `claims`, which do not change meanwhile, and a report of its own: those are joined in
+/// the order of i, up to the most objections. So the outcome does not depend on the threads.
+void for_each(Claims& claims, std::size_t count,
+              const std::function<void(Claims& part, std::size_t i)>& check);
 
 /// Every index is in range, every number finite, every box ordered, every enumerator named. All
 /// later checks rely on it: false ends the verification.

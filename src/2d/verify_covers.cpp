@@ -310,12 +310,13 @@ void check_crossing_covers(Claims& claims) {
         join(&hulls, {alive[i], alive[j]}, claims.shared_leaves[k]);
   }
   std::set<std::array<int, 2>> pairs;
-  for (std::size_t i = 0; i < e.crossing_covers.size() && !claims.full(); ++i) {
-    const CrossingCover& c = e.crossing_covers[i];
+  for (const CrossingCover& c : e.crossing_covers)
     claims.require(pairs.insert(c.curves).second, "Curves ", c.curves[0], " and ", c.curves[1],
                    " have two crossing covers.");
-    const System<2> pair{&claims.curves[static_cast<std::size_t>(c.curves[0])],
-                         &claims.curves[static_cast<std::size_t>(c.curves[1])]};
+  for_each(claims, e.crossing_covers.size(), [&](Claims& part, std::size_t i) {
+    const CrossingCover& c = e.crossing_covers[i];
+    const System<2> pair{&part.curves[static_cast<std::size_t>(c.curves[0])],
+                         &part.curves[static_cast<std::size_t>(c.curves[1])]};
     const auto check = [&](int token, const Box<2>& leaf) -> const char* {
       if (token == cover::kUnresolved)
         return unresolved(e, leaf, {c.curves[0], c.curves[1]})
@@ -324,7 +325,7 @@ void check_crossing_covers(Claims& claims) {
       if (token == cover::kExcluded)
         return by_parts(
                    leaf,
-                   [&](const Box<2>& box) { return no_common_zero<2>(pair, box, claims.kernel); })
+                   [&](const Box<2>& box) { return no_common_zero<2>(pair, box, part.kernel); })
                    ? nullptr
                    : "is not proved free of crossings";
       const Crossing& crossing = e.crossings[static_cast<std::size_t>(token)];
@@ -333,15 +334,15 @@ void check_crossing_covers(Claims& claims) {
       // can hold is that crossing.
       const auto proves = [&](const Box<2>& box) {
         return crossing.box.contains(box) ||
-               at_most_one_zero<2>(pair, hull(box, crossing.box), claims.kernel) ||
-               no_common_zero<2>(pair, box, claims.kernel);
+               at_most_one_zero<2>(pair, hull(box, crossing.box), part.kernel) ||
+               no_common_zero<2>(pair, box, part.kernel);
       };
       return by_parts(leaf, proves) ? nullptr : "is not proved to hold only its crossing";
     };
     const std::string name = "Crossing cover " + std::to_string(i);
-    check_root(claims, name, c.root, hulls, c.curves);
-    replay(claims, name, c.root, c.tokens, check);
-  }
+    check_root(part, name, c.root, hulls, c.curves);
+    replay(part, name, c.root, c.tokens, check);
+  });
   const bool complete =
       shared ? std::all_of(hulls.begin(), hulls.end(),
                            [&](const auto& pair) { return pairs.count(pair.first) > 0; })
@@ -351,22 +352,22 @@ void check_crossing_covers(Claims& claims) {
 
 void check_critical_regions(Claims& claims) {
   const Encasement& e = claims.result;
-  for (std::size_t i = 0; i < e.critical_regions.size() && !claims.full(); ++i) {
+  for_each(claims, e.critical_regions.size(), [&](Claims& part, std::size_t i) {
     const CriticalRegion& region = e.critical_regions[i];
-    const auto& f = claims.curves[static_cast<std::size_t>(region.curve)];
+    const auto& f = part.curves[static_cast<std::size_t>(region.curve)];
     bool proved = true;
     for (const Box<2>& box : region.boxes) {
-      proved = by_parts(box, [&](const Box<2>& part) {
-        return sign_on_box(f, part, claims.kernel) == region.sign;
+      proved = by_parts(box, [&](const Box<2>& inner) {
+        return sign_on_box(f, inner, part.kernel) == region.sign;
       });
       if (!proved) break;
     }
-    claims.require(proved, "Curve ", region.curve,
-                   " is not proved to have its sign on critical region ", i, ".");
+    part.require(proved, "Curve ", region.curve,
+                 " is not proved to have its sign on critical region ", i, ".");
     if (proved)
-      claims.require(connected(region.boxes), "The boxes of critical region ", i,
-                     " do not hang together.");
-  }
+      part.require(connected(region.boxes), "The boxes of critical region ", i,
+                   " do not hang together.");
+  });
 }
 
 void check_critical_covers(Claims& claims) {
@@ -380,17 +381,18 @@ void check_critical_covers(Claims& claims) {
   for (std::size_t k = 0; k < claims.shared_leaves.size(); ++k)
     for (int c : e.shared_cover.alive[k]) join(&hulls, c, claims.shared_leaves[k]);
   std::set<int> curves;
-  for (std::size_t i = 0; i < e.critical_covers.size() && !claims.full(); ++i) {
-    const CriticalCover& c = e.critical_covers[i];
+  for (const CriticalCover& c : e.critical_covers)
     claims.require(curves.insert(c.curve).second, "Curve ", c.curve, " has two critical covers.");
-    const auto& f = claims.curves[static_cast<std::size_t>(c.curve)];
+  for_each(claims, e.critical_covers.size(), [&](Claims& part, std::size_t i) {
+    const CriticalCover& c = e.critical_covers[i];
+    const auto& f = part.curves[static_cast<std::size_t>(c.curve)];
     const auto check = [&](int token, const Box<2>& leaf) -> const char* {
       if (token == cover::kUnresolved)
         return unresolved(e, leaf, {c.curve}) ? nullptr : "is in no unresolved box of the curve";
       if (token == cover::kExcluded)
         return by_parts(leaf,
                         [&](const Box<2>& box) {
-                          return no_relevant_critical_point(f, box, claims.kernel);
+                          return no_relevant_critical_point(f, box, part.kernel);
                         })
                    ? nullptr
                    : "is not proved free of critical points";
@@ -400,9 +402,9 @@ void check_critical_covers(Claims& claims) {
       return boxes[k].contains(leaf) ? nullptr : "is not a box of its critical region";
     };
     const std::string name = "Critical cover " + std::to_string(i);
-    check_root(claims, name, c.root, hulls, c.curve);
-    replay(claims, name, c.root, c.tokens, check);
-  }
+    check_root(part, name, c.root, hulls, c.curve);
+    replay(part, name, c.root, c.tokens, check);
+  });
   const bool complete =
       shared ? std::all_of(hulls.begin(), hulls.end(),
                            [&](const auto& curve) { return curves.count(curve.first) > 0; })

@@ -207,22 +207,22 @@ void check_disjoint(Claims& claims) {
 
 void check_crossings(Claims& claims, const Partition& partition) {
   const Encasement& e = claims.result;
-  for (std::size_t i = 0; i < e.crossings.size() && !claims.full(); ++i) {
+  for_each(claims, e.crossings.size(), [&](Claims& part, std::size_t i) {
     const Crossing& c = e.crossings[i];
-    const System<2> pair{&claims.curves[static_cast<std::size_t>(c.curves[0])],
-                         &claims.curves[static_cast<std::size_t>(c.curves[1])]};
-    claims.require(c.box.contains(c.point), "The point of crossing ", i, " is not in its box.");
-    if (!claims.require(exactly_one_zero<2>(pair, c.box, claims.kernel), "The box of crossing ", i,
-                        " is not proved to hold exactly one common point."))
-      continue;
-    check_place(claims, partition, i);
-    claims.require(location_is_proved(e, c), "The location of crossing ", i,
-                   " in the region is not proved.");
+    const System<2> pair{&part.curves[static_cast<std::size_t>(c.curves[0])],
+                         &part.curves[static_cast<std::size_t>(c.curves[1])]};
+    part.require(c.box.contains(c.point), "The point of crossing ", i, " is not in its box.");
+    if (!part.require(exactly_one_zero<2>(pair, c.box, part.kernel), "The box of crossing ", i,
+                      " is not proved to hold exactly one common point."))
+      return;
+    check_place(part, partition, i);
+    part.require(location_is_proved(e, c), "The location of crossing ", i,
+                 " in the region is not proved.");
     if (c.rounded)
-      claims.require(rounding_is_proved(claims, c), "The point of crossing ", i,
-                     " is not proved to be correctly rounded.");
-  }
-  check_disjoint(claims);
+      part.require(rounding_is_proved(part, c), "The point of crossing ", i,
+                   " is not proved to be correctly rounded.");
+  });
+  if (!claims.full()) check_disjoint(claims);
 }
 
 }  // namespace encase::verification

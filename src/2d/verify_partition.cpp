@@ -98,19 +98,20 @@ class Replay {
       if (certified(e_.cells[i]))
         for (const Edge& edge : partition_.cells[i])
           complete[static_cast<std::size_t>(edge.segment)] = true;
-    for (std::size_t s = 0; s < partition_.segments.size() && !claims_.full(); ++s)
-      for (int curve : curves_on_segment(partition_.segments[s], complete[s])) {
-        if (claims_.full()) break;
-        check_curve_on_segment(curve, partition_.segments[s], complete[s]);
+    for_each(claims_, partition_.segments.size(), [&](Claims& part, std::size_t s) {
+      for (int curve : curves_on_segment(part, partition_.segments[s], complete[s])) {
+        if (part.full()) break;
+        check_curve_on_segment(part, curve, partition_.segments[s], complete[s]);
       }
+    });
   }
 
   /// The curves about which a segment claims something that the shared cover does not prove.
-  std::vector<int> curves_on_segment(const Segment& segment, bool complete) {
+  std::vector<int> curves_on_segment(Claims& part, const Segment& segment, bool complete) {
     std::vector<int> curves;
     if (complete) {
       const auto point = point_on_line(line(segment.line), Interval(segment.lo, segment.hi));
-      curves = curves_near(claims_, line(segment.line),
+      curves = curves_near(part, line(segment.line),
                            {{point[0].lo, point[1].lo}, {point[0].hi, point[1].hi}});
     }
     for (int id : segment.crossings) curves.push_back(crossing(id).curve);
@@ -119,50 +120,49 @@ class Replay {
     return curves;
   }
 
-  void check_curve_on_segment(int curve, const Segment& segment, bool complete) {
-    const auto& f = claims_.curves[static_cast<std::size_t>(curve)];
+  void check_curve_on_segment(Claims& part, int curve, const Segment& segment, bool complete) {
+    const auto& f = part.curves[static_cast<std::size_t>(curve)];
     const LineCrossing* previous = nullptr;
     for (int id : segment.crossings) {
       const LineCrossing& c = crossing(id);
       if (c.curve != curve) continue;
-      const bool proved = claims_.require(
-          one_root_on_line(f, line(segment.line), c.lo, c.hi, claims_.kernel), "Line crossing ", id,
+      const bool proved = part.require(
+          one_root_on_line(f, line(segment.line), c.lo, c.hi, part.kernel), "Line crossing ", id,
           " is not proved to be one simple root of curve ", curve, " on line ", segment.line, ".");
       if (!proved) return;
-      if (complete) check_gap(curve, segment, previous, &c);
+      if (complete) check_gap(part, curve, segment, previous, &c);
       previous = &c;
     }
-    if (complete) check_gap(curve, segment, previous, nullptr);
+    if (complete) check_gap(part, curve, segment, previous, nullptr);
   }
 
   /// Proves that a curve has no zero between two successive crossings with a segment's line, or
   /// between one and an end.
-  void check_gap(int curve, const Segment& segment, const LineCrossing* before,
+  void check_gap(Claims& part, int curve, const Segment& segment, const LineCrossing* before,
                  const LineCrossing* after) {
-    const auto& f = claims_.curves[static_cast<std::size_t>(curve)];
+    const auto& f = part.curves[static_cast<std::size_t>(curve)];
     const Line& l = line(segment.line);
     double lo = before ? before->hi : segment.lo, hi = after ? after->lo : segment.hi;
     // The corner's enclosure reaches into the interval, which has been objected to.
     if (lo > hi) return;
-    bool proved = no_root_on_line(f, l, lo, hi, claims_.kernel);
+    bool proved = no_root_on_line(f, l, lo, hi, part.kernel);
     // A root may lie too close to an end of its interval for boxes of doubles to tell them apart.
     // But where an interval and a part of the gap together have one root, it is that of the
     // interval.
     for (int k = 1; !proved && before && k <= 40; k += 3) {
       const double t = lo + std::ldexp(hi - lo, -k);
-      if (!(lo < t) || !one_root_on_line(f, l, before->lo, t, claims_.kernel)) continue;
+      if (!(lo < t) || !one_root_on_line(f, l, before->lo, t, part.kernel)) continue;
       lo = t;
       break;
     }
     for (int k = 1; !proved && after && k <= 40; k += 3) {
       const double t = hi - std::ldexp(hi - lo, -k);
-      if (!(t < hi) || !one_root_on_line(f, l, t, after->hi, claims_.kernel)) continue;
+      if (!(t < hi) || !one_root_on_line(f, l, t, after->hi, part.kernel)) continue;
       hi = t;
       break;
     }
-    claims_.require(proved || no_root_on_line(f, l, lo, hi, claims_.kernel), "Curve ", curve,
-                    " is not proved absent from line ", segment.line,
-                    " between its crossings there.");
+    part.require(proved || no_root_on_line(f, l, lo, hi, part.kernel), "Curve ", curve,
+                 " is not proved absent from line ", segment.line, " between its crossings there.");
   }
 
   /// How many of an edge's crossings, counted in its segment's order, lie before a corner on it.
