@@ -40,6 +40,10 @@ Status check_options(const CurvesRequest& r) {
   if (r.faces && r.svg.empty() && r.mesh.empty())
     return bad_input("--faces belongs to the picture or the mesh: give --svg or --mesh");
   if (r.labels && r.svg.empty()) return bad_input("--labels belongs to the picture: give --svg");
+  if (!r.onto.empty() && (!r.region.empty() || r.options.perturbation > 0))
+    return bad_input("with --onto the region and the perturbation are those of the earlier result");
+  if (r.onto == "-" && r.file == "-")
+    return bad_input("FILE and --onto cannot both be standard input");
   if (r.history && r.vtk_directory.empty())
     return bad_input("--history belongs to the VTK files: give their directory with -o");
   if (r.options.start_bits > r.options.max_bits)
@@ -72,15 +76,36 @@ Status check_outputs(const CurvesRequest& r) {
 }
 
 struct Input {
+  std::optional<Encasement> earlier;  ///< of --onto
   std::vector<NamedCurve> curves;
   Region region;
 };
+
+/// Reads the earlier result. Names of the new curves that say nothing but their place go on with
+/// its numbers; of the others none may be there already.
+Result<Input> read_onto(const CurvesRequest& r, std::vector<NamedCurve> curves) {
+  const auto text = read_input(r.onto);
+  if (!text) return text.error();
+  auto earlier = encasement_from_json(text.value(), r.onto == "-" ? "standard input" : r.onto);
+  if (!earlier) return earlier.error();
+  const std::vector<NamedCurve>& there = earlier.value().input;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    std::string& name = curves[k].name;
+    if (name == fmt::format("c{}", k)) name = fmt::format("c{}", there.size() + k);
+    for (const NamedCurve& other : there)
+      if (name == other.name)
+        return bad_input(fmt::format("a curve '{}' is in {} already", name, r.onto));
+  }
+  Region region = earlier.value().region;
+  return Input{std::move(earlier).value(), std::move(curves), std::move(region)};
+}
 
 Result<Input> read(const CurvesRequest& r) {
   std::string lines;
   for (const std::string& expression : r.expressions) lines += expression + "\n";
   auto file = r.expressions.empty() ? load_curves(r.file) : read_curves(lines, "-e");
   if (!file) return file.error();
+  if (!r.onto.empty()) return read_onto(r, std::move(file.value().curves));
   std::optional<Region> region = file.value().region;
   if (!r.region.empty()) {
     auto parsed = parse_region(r.region, "--region");
@@ -91,7 +116,7 @@ Result<Input> read(const CurvesRequest& r) {
     return bad_input(
         "no region is given: add a line 'region: xmin xmax ymin ymax' to the file, or "
         "--region \"xmin xmax ymin ymax\"");
-  return Input{std::move(file.value().curves), *std::move(region)};
+  return Input{std::nullopt, std::move(file.value().curves), *std::move(region)};
 }
 
 Status write_svg(const CurvesRequest& r, const Encasement& encasement) {
@@ -176,11 +201,12 @@ ExitCode run_curves(CurvesRequest request) {
 
   std::optional<Progress> progress(std::in_place, !request.quiet && !prints_on_terminal(request));
   request.options.progress = progress->callback();
-  auto result = encase(input.value().curves, input.value().region, request.options);
+  const auto& [earlier, curves, region] = input.value();
+  auto result = earlier ? add_curves(*earlier, curves, request.options)
+                        : encase(curves, region, request.options);
   progress->begin("writing the result");
   const auto answered = result ? answer(std::move(result).value()) : Result<Answer>(result.error());
-  Status status =
-      answered ? write_files(request, answered.value()) : Status(answered.error());
+  Status status = answered ? write_files(request, answered.value()) : Status(answered.error());
   if (!status) status = write_report(request, answered.value(), progress);
   progress.reset();
   return status ? fail(*status) : exit_code(answered.value().encasement.outcome);

@@ -14,6 +14,7 @@ struct CurvesRequest {
   std::string file;                      ///< "-" is standard input; empty: `expressions`
   std::vector<std::string> expressions;  ///< of -e
   std::string region;                    ///< of --region, overrides the file's
+  std::string onto;                      ///< a result to whose curves these are added, or empty
   std::string json;
   std::string svg;
   bool faces = false;   ///< in the SVG and the mesh

@@ -42,6 +42,8 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
        "--region", r.region,
        "\"xmin xmax ymin ymax\", \"polygon (x,y) (x,y) ...\" or \"plane\"; overrides the file's")
       ->type_name("REGION");
+  c->add_option("--onto", r.onto, "add the curves to those of an earlier result, in its region")
+      ->type_name("RESULT");
   c->add_option("--json", r.json, "write the result, everything that proves it included")
       ->type_name("FILE");
   c->add_option("--svg", r.svg, "write a picture")->type_name("FILE");

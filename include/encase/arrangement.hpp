@@ -120,6 +120,9 @@ struct Arrangement {
   }
   /// The half-edges of the boundary cycle on which a half-edge lies, from it on.
   std::vector<int> cycle(int half_edge) const;
+  /// Whether a part of the region's boundary is in that of a face. In the whole plane: whether the
+  /// face is unbounded.
+  bool touches_boundary(int face) const;
   /// The vertices that are crossings of two curves.
   std::vector<int> crossings_of(int first, int second) const;
 

@@ -346,6 +346,13 @@ std::vector<int> Arrangement::cycle(int half_edge) const {
   return result;
 }
 
+bool Arrangement::touches_boundary(int face) const {
+  if (face == outside) return true;
+  const std::vector<int> boundary = cycle(faces[face].outer);
+  return std::any_of(boundary.begin(), boundary.end(),
+                     [&](int half_edge) { return edges[edge_of(half_edge)].curve < 0; });
+}
+
 std::vector<int> Arrangement::crossings_of(int first, int second) const {
   std::vector<int> result;
   for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {

@@ -3,9 +3,11 @@
 // The whole plane as the region: a rectangle is encased, and what is outside of it is proved.
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "common/random_polynomials.hpp"
 #include "common/substitute.hpp"
+#include "encase/arrangement.hpp"
 #include "encase/curves_file.hpp"
 #include "encase/result_json.hpp"
 #include "encased.hpp"
@@ -39,6 +41,23 @@ void expect_open_at_infinity(const Encasement& e, std::size_t directions) {
   }
   EXPECT_EQ(encased::count(e, CellState::Degenerate), 0);
   EXPECT_EQ(encased::count(e, CellState::Undecided), 0);
+}
+
+/// How many faces of the arrangement are bounded and how many are not.
+std::pair<int, int> faces(const Encasement& e) {
+  const Arrangement arrangement = arrange(e).value();
+  std::pair<int, int> result{0, 0};
+  for (int face = 0; face < static_cast<int>(arrangement.faces.size()); ++face)
+    if (face != arrangement.outside)
+      ++(arrangement.touches_boundary(face) ? result.second : result.first);
+  return result;
+}
+
+TEST(Plane, FacesAreBoundedOrNot) {
+  EXPECT_EQ(faces(in_plane({"x^2 + y^2 - 1"})), std::pair(1, 1));
+  EXPECT_EQ(faces(in_plane({"x^2 + y^2 - 1", "x - y"})), std::pair(2, 2));
+  EXPECT_EQ(faces(in_plane({"x - y", "x + 2*y - 5", "x + y/3 - 1000"})), std::pair(1, 6));
+  EXPECT_EQ(faces(in_plane({"x*y - 1", "x^2 + y^2 - 9", "x^2 + y^2 - 1/4"})), std::pair(4, 5));
 }
 
 TEST(Outside, CoordinatesAreThoseOfTheCharts) {

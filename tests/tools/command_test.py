@@ -49,6 +49,34 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(run.stderr, "")
 
 
+class Onto(CommandTest):
+    def earlier(self):
+        path = self.path("earlier.json")
+        run = encase("curves", "-e", "circle: x^2 + y^2 - 1", "-e", "y - x^3", "--region",
+                     "-2 2 -2 2", "-q", "--json", path)
+        self.encased(run, 0)
+        return path
+
+    def test_adds_curves_to_a_result(self):
+        later = self.path("later.json")
+        run = encase("curves", "-e", "x*y - 1/3", "-e", "line: y - x/2", "--onto", self.earlier(),
+                     "--json", later, "--summary")
+        self.encased(run, 0)
+        self.assertEqual(json.loads(run.stdout)["crossings"], 15)
+        with open(later) as file:
+            names = [curve["name"] for curve in json.load(file)["input"]["curves"]]
+        self.assertEqual(names, ["circle", "c1", "c2", "line"])
+        self.encased(encase("check", later), 0)
+
+    def test_refuses_what_contradicts_the_result(self):
+        path = self.earlier()
+        self.refused(encase("curves", "-e", "x", "--onto", path, "--region", "0 1 0 1"), 1, "--onto")
+        self.refused(encase("curves", "-e", "x", "--onto", path, "--perturb", "1e-3"), 1, "--onto")
+        self.refused(encase("curves", "-e", "circle: x", "--onto", path), 1, "circle")
+        self.refused(encase("curves", "-e", "x", "--onto", self.path("no", "text")), 1, "no")
+        self.refused(encase("curves", "-e", "x", "--onto", self.path("absent")), 2, "absent")
+
+
 class Usage(CommandTest):
     def test_help_names_every_subcommand_and_the_exit_codes(self):
         run = encase("--help")
@@ -59,7 +87,7 @@ class Usage(CommandTest):
     def test_help_of_curves_names_every_option(self):
         run = encase("curves", "--help")
         self.encased(run, 0)
-        for option in ("-e", "--region", "--json", "--svg", "--faces", "--labels", "--mesh", "-o",
+        for option in ("-e", "--region", "--onto", "--json", "--svg", "--faces", "--labels", "--mesh", "-o",
                        "--history",
                        "--summary", "--relaxed", "--perturb", "--seed", "--max-cells",
                        "--max-seconds", "--max-bits", "--start-bits", "--threads", "-q", "-v"):
