@@ -153,7 +153,7 @@ void Encaser::use_region(const Region& region) {
   const Box<2> root = subdivision_root(bounds_);
   tiled_.clear();
   for (const FilteredPolynomial<2>& f : polynomials_) tiled_.emplace_back(f, root, kernel_);
-  partition_ = std::make_unique<Partition>(polynomials_, tiled_, kernel_);
+  partition_ = std::make_unique<Partition>(polynomials_, tiled_, bounds_.center(), kernel_);
 }
 
 bool Encaser::open_region() {
@@ -298,7 +298,8 @@ void Encaser::isolate_crossings() {
   result_.shared_cover = {};
   curve_roots_.clear();
   if (n > 2) {
-    SharedLeaves shared = share_leaves(tiled_, sides_, stop("telling which curves meet"), kernel_);
+    SharedLeaves shared =
+        share_leaves(partition_->tiles(), sides_, stop("telling which curves meet"), kernel_);
     result_.statistics.root_boxes += shared.visited;
     const Box<2> whole = tiled_[0].box();
     for (const Box<2>& box : shared.unresolved) {
@@ -325,17 +326,10 @@ void Encaser::isolate_crossings() {
 void Encaser::isolate_pair(const std::array<int, 2>& curves, const Box<2>& root) {
   const SubdivisionLimits pair_limits =
       limits("isolating crossings", Unresolved::Kind::Contact, root);
-  const auto isolate = [&](TiledPolynomial& f, TiledPolynomial& g) {
-    return isolate_roots(f, g, sides_, pair_limits, kernel_);
-  };
   const auto [i, j] = curves;
-  RootIsolation<2> roots;
-  if (root == tiled_[i].box()) {
-    roots = isolate(tiled_[i], tiled_[j]);
-  } else {
-    TiledPolynomial f(polynomials_[i], root, kernel_), g(polynomials_[j], root, kernel_);
-    roots = isolate(f, g);
-  }
+  RootIsolation<2> roots =
+      isolate_roots(partition_->tiles().about(i, root), partition_->tiles().about(j, root), root,
+                    sides_, pair_limits, kernel_);
   result_.statistics.root_boxes += roots.boxes;
   const int first = static_cast<int>(partition_->crossings.size());
   for (std::size_t k = 0; k < roots.roots.size(); ++k) {
@@ -386,16 +380,7 @@ void Encaser::find_critical_regions() {
     if (!(root.width(0) > 0)) continue;  // the curve has no zero in the region
     const SubdivisionLimits curve_limits =
         limits("finding critical regions", Unresolved::Kind::SingularPoint, root);
-    const auto find = [&](TiledPolynomial& f) {
-      return critical_regions(f, c, sides_, curve_limits, kernel_);
-    };
-    CriticalRegions found;
-    if (root == tiled_[c].box()) {
-      found = find(tiled_[c]);
-    } else {
-      TiledPolynomial f(polynomials_[c], root, kernel_);
-      found = find(f);
-    }
+    CriticalRegions found = critical_regions(tiled_[c], c, root, sides_, curve_limits, kernel_);
     result_.statistics.critical_boxes += found.boxes;
     const int first = static_cast<int>(partition_->critical_regions.size());
     for (int& token : found.tokens)
