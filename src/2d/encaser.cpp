@@ -187,7 +187,8 @@ void Encaser::use_region(const Region& region) {
   tile_kernels_.resize(polynomials_.size(), kernel_.fresh());
   for (std::size_t c = 0; c < polynomials_.size(); ++c)
     tiled_.emplace_back(polynomials_[c], root, tile_kernels_[c]);
-  partition_ = std::make_unique<Partition>(polynomials_, tiled_, kernel_);
+  if (partition_) partition_->tiles().add_counts_to(&kernel_);
+  partition_ = std::make_unique<Partition>(polynomials_, tiled_, bounds_.center(), kernel_);
 }
 
 bool Encaser::open_region() {
@@ -332,7 +333,8 @@ void Encaser::isolate_crossings() {
   result_.shared_cover = {};
   curve_roots_.clear();
   if (n > 2) {
-    SharedLeaves shared = share_leaves(tiled_, sides_, stop("telling which curves meet"), kernel_);
+    SharedLeaves shared =
+        share_leaves(partition_->tiles(), sides_, stop("telling which curves meet"), kernel_);
     result_.statistics.root_boxes += shared.visited;
     const Box<2> whole = tiled_[0].box();
     for (const Box<2>& box : shared.unresolved) {
@@ -373,16 +375,9 @@ void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
     Isolated& result = isolated[index];
     result.kernel = kernel_.fresh();
     const SubdivisionLimits pair_limits = limits(tasks, Unresolved::Kind::Contact, root);
-    const auto isolate = [&](TiledPolynomial& f, TiledPolynomial& g) {
-      return isolate_roots(f, g, sides_, pair_limits, result.kernel);
-    };
-    if (root == tiled_[i].box()) {
-      result.roots = isolate(tiled_[i], tiled_[j]);
-    } else {
-      TiledPolynomial f(polynomials_[i], root, result.kernel),
-          g(polynomials_[j], root, result.kernel);
-      result.roots = isolate(f, g);
-    }
+    NestedTiles& tiles = partition_->tiles();
+    result.roots = isolate_roots(tiles.about(i, root), tiles.about(j, root), root, sides_,
+                                 pair_limits, result.kernel);
     result.smallest = pair_limits.smallest;
     result.stopped = is_used_up_;
   });
@@ -456,15 +451,7 @@ void Encaser::find_critical_regions() {
     Found& result = found[index];
     result.kernel = kernel_.fresh();
     const SubdivisionLimits curve_limits = limits(tasks, Unresolved::Kind::SingularPoint, root);
-    const auto find = [&](TiledPolynomial& f) {
-      return critical_regions(f, c, sides_, curve_limits, result.kernel);
-    };
-    if (root == tiled_[c].box()) {
-      result.regions = find(tiled_[c]);
-    } else {
-      TiledPolynomial f(polynomials_[c], root, result.kernel);
-      result.regions = find(f);
-    }
+    result.regions = critical_regions(tiled_[c], c, root, sides_, curve_limits, result.kernel);
     append_saddles(tiled_[c], c, result.regions.other_points, &result.saddles);
     result.smallest = curve_limits.smallest;
     result.stopped = is_used_up_;
@@ -543,6 +530,7 @@ void Encaser::decide_outcome() {
   for (const Cell& cell : result_.cells)
     if (cell.state == CellState::Undecided) result_.outcome = Outcome::Undecided;
   for (const Kernel& kernel : tile_kernels_) kernel_.add(kernel);
+  partition_->tiles().add_counts_to(&kernel_);
   Statistics& s = result_.statistics;
   s.candidate_lines = partition_->lines_tried;
   s.decisions = kernel_.decisions;

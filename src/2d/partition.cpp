@@ -25,8 +25,11 @@ bool clear_of(TiledPolynomial& f, const Line& line, const Interval& vertex, Line
 }  // namespace
 
 Partition::Partition(const std::vector<FilteredPolynomial<2>>& curves,
-                     std::vector<TiledPolynomial>& tiles, Kernel& kernel)
-    : curves_(curves), tiles_(tiles), kernel_(kernel) {}
+                     std::vector<TiledPolynomial>& tiles, const Point<2>& middle, Kernel& kernel)
+    : curves_(curves),
+      // (For one pair inner tiles are not worth their making.)
+      tiles_(curves, tiles, middle, curves.size() > 2, kernel),
+      kernel_(kernel) {}
 
 bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
   // Refine neighbours until all intervals are disjoint.
@@ -40,19 +43,44 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
       if (a.root.hi < b.root.lo) continue;
       if (a.root.hi == b.root.lo && a.curve == b.curve) continue;
       disjoint = false;
-      for (Cut::Root* r : {&a, &b})
-        if (!refine_on_line(tiles_[r->curve], line, &r->root, kernel_)) return false;
+      for (Cut::Root* r : {&a, &b}) {
+        TiledPolynomial& f = tiles_.about(r->curve, box_on_line(line, r->root.lo, r->root.hi));
+        if (!refine_on_line(f, line, &r->root, kernel_)) return false;
+      }
     }
     if (disjoint) return true;
   }
   return false;
 }
 
+/// Appends the roots to those found, each part of the line with the tiles that see it best.
+bool Partition::isolate_in_parts(int curve, const Line& line, double from, double to,
+                                 int max_nodes) {
+  const auto isolate = [&](double lo, double hi) {
+    TiledPolynomial& f = tiles_.about(curve, box_on_line(line, lo, hi));
+    return isolate_on_line(f, line, lo, hi, max_nodes, kernel_, &found_);
+  };
+  stops_.clear();
+  tiles_.append_stops(curve, line, from, to, &stops_);
+  if (stops_.empty()) return isolate(from, to);
+  stops_.push_back(to);
+  double last = from;
+  bool proved = true;
+  for (std::size_t k = 0; proved && k < stops_.size(); ++k) {
+    proved = isolate(last, stops_[k]);
+    last = stops_[k];
+  }
+  if (proved) return true;
+  // The curve may pass through a stop.
+  found_.clear();
+  return isolate(from, to);
+}
+
 bool Partition::isolate_between(int curve, const Line& line, const Interval& from,
                                 const Interval& to, int max_nodes, std::vector<Cut::Root>* roots) {
-  TiledPolynomial& f = tiles_[curve];
   found_.clear();
-  if (!isolate_on_line(f, line, from.lo, to.hi, max_nodes, kernel_, &found_)) return false;
+  if (!isolate_in_parts(curve, line, from.lo, to.hi, max_nodes)) return false;
+  TiledPolynomial& f = tiles_.about(curve, box_on_line(line, from.lo, to.hi));
   for (LineRoot& root : found_) {
     // The vertices must be free of the curve: no root in their enclosures.
     if (!clear_of(f, line, from, &root, kernel_) || !clear_of(f, line, to, &root, kernel_) ||
@@ -138,7 +166,8 @@ std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
   for (int i = cell.begin_of(edge); i < e.end; ++i) {
     LineCrossing& c = line_crossings[cell.word[i]];
     LineRoot root{c.lo, c.hi, spots_[cell.word[i]].parameter};
-    if (!clear_of(tiles_[c.curve], line, parameter, &root, kernel_)) return std::nullopt;
+    TiledPolynomial& f = tiles_.about(c.curve, box_on_line(line, c.lo, c.hi));
+    if (!clear_of(f, line, parameter, &root, kernel_)) return std::nullopt;
     c.lo = root.lo;
     c.hi = root.hi;
     if ((root.hi < parameter.lo) == ascending) ++before;
@@ -154,7 +183,7 @@ const Partition::Spot& Partition::spot(int line_crossing) {
   const int p = parameter_axis(line), q = 1 - p;
   spot.at[p] = spot.parameter;
   spot.at[q] = -(line.normal[p] * spot.parameter + line.offset) / line.normal[q];
-  const auto [value, g] = value_and_gradient(tiles_[c.curve], spot.at);
+  const auto [value, g] = value_and_gradient(tiles_.about(c.curve, {spot.at, spot.at}), spot.at);
   const double length = std::sqrt(g[0] * g[0] + g[1] * g[1]);
   if (length > 0) spot.normal = {g[0] / length, g[1] / length};
   spot.known = true;
@@ -173,6 +202,18 @@ ValueAndGradient value_and_gradient(TiledPolynomial& f, const Point<2>& at) {
   const auto [value, slope_0, slope_1] = value_and_gradient(
       tile, Point<2>{(at[0] - tile.center[0]) * scale[0], (at[1] - tile.center[1]) * scale[1]});
   return {value, {slope_0 * scale[0], slope_1 * scale[1]}};
+}
+
+Box<2> box_on_line(const Line& line, double from, double to) {
+  const int p = parameter_axis(line), q = 1 - p;
+  Box<2> box;
+  box.lo[p] = from;
+  box.hi[p] = to;
+  const double slope = -line.normal[p] / line.normal[q], base = -line.offset / line.normal[q],
+               a = base + slope * from, b = base + slope * to;
+  box.lo[q] = std::min(a, b);
+  box.hi[q] = std::max(a, b);
+  return box;
 }
 
 Box<2> bounds_of(const OpenCell& cell) {

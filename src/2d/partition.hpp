@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "2d/nested_tiles.hpp"
 #include "2d/places.hpp"
 #include "common/filtered_polynomial.hpp"
 #include "common/line_roots.hpp"
@@ -88,9 +89,10 @@ struct Saddle {
 
 class Partition {
  public:
-  /// `tiles`: the curves' polynomials over a box that contains the polygon to be opened.
+  /// `tiles`: the curves' polynomials over a box that contains the polygon to be opened, around
+  /// the given middle.
   Partition(const std::vector<FilteredPolynomial<2>>& curves, std::vector<TiledPolynomial>& tiles,
-            Kernel& kernel);
+            const Point<2>& middle, Kernel& kernel);
 
   std::vector<Line> lines;
   std::vector<LineCrossing> line_crossings;
@@ -102,7 +104,7 @@ class Partition {
   std::int64_t lines_tried = 0;
 
   const std::vector<FilteredPolynomial<2>>& curves() const { return curves_; }
-  std::vector<TiledPolynomial>& tiles() { return tiles_; }
+  NestedTiles& tiles() { return tiles_; }
   Kernel& kernel() { return kernel_; }
   OpenCell::Memory* memory() { return &memory_; }
 
@@ -134,16 +136,18 @@ class Partition {
   const Spot& spot(int line_crossing);
 
  private:
+  bool isolate_in_parts(int curve, const Line& line, double from, double to, int max_nodes);
   bool order_on_line(const Line& line, std::vector<Cut::Root>* roots);
   void add_line_crossings(int line, const std::vector<Cut::Root>& roots);
   void build_child(const OpenCell& cell, const Cut& cut, int first_root, OpenCell* child);
   std::optional<Sign> side_of(const CriticalRegion& region, const Line& line);
 
   const std::vector<FilteredPolynomial<2>>& curves_;
-  std::vector<TiledPolynomial>& tiles_;
+  NestedTiles tiles_;
   Kernel& kernel_;
   std::pmr::monotonic_buffer_resource memory_;  ///< of the cells
   std::vector<LineRoot> found_;
+  std::vector<double> stops_;
   std::vector<Spot> spots_;  ///< of every line crossing
 };
 
@@ -158,6 +162,9 @@ struct ValueAndGradient {
   Point<2> gradient;
 };
 ValueAndGradient value_and_gradient(TiledPolynomial& f, const Point<2>& at);
+
+/// About the smallest box around the part of a line between two parameters.
+Box<2> box_on_line(const Line& line, double from, double to);
 
 /// The smallest box around the centres of a cell's vertices.
 Box<2> bounds_of(const OpenCell& cell);
