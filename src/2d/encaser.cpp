@@ -99,7 +99,7 @@ SubdivisionLimits Encaser::limits(Tasks& tasks, Unresolved::Kind kind, const Box
   const double whole = tiled_.front().box().largest_width();
   limits.smallest = smallest_part(kind) * (whole / root.largest_width());
   limits.stop = [this, &tasks] {
-    progress(tasks.stage, tasks.count > 2 ? static_cast<double>(tasks.done) / tasks.count : -1);
+    progress(tasks.stage, tasks.count > 2 ? tasks.part_done() : -1);
     return out_of_budget();
   };
   return limits;
@@ -107,9 +107,7 @@ SubdivisionLimits Encaser::limits(Tasks& tasks, Unresolved::Kind kind, const Box
 
 bool Encaser::out_of_budget() {
   if (is_used_up_) return true;
-  if (static_cast<int>(finished_.size()) >= options_.max_cells)
-    use_up_budget("the limit of " + std::to_string(options_.max_cells) + " cells was reached");
-  else if (clock_.exceeds(options_.max_seconds))
+  if (clock_.exceeds(options_.max_seconds))
     use_up_budget("the limit of " + decimal(options_.max_seconds) + " CPU seconds was reached");
   return is_used_up_;
 }
@@ -187,8 +185,12 @@ void Encaser::use_region(const Region& region) {
   tile_kernels_.resize(polynomials_.size(), kernel_.fresh());
   for (std::size_t c = 0; c < polynomials_.size(); ++c)
     tiled_.emplace_back(polynomials_[c], root, tile_kernels_[c]);
-  if (partition_) partition_->tiles().add_counts_to(&kernel_);
-  partition_ = std::make_unique<Partition>(polynomials_, tiled_, bounds_.center(), kernel_);
+  if (tiles_) tiles_->add_counts_to(&kernel_);
+  // (For one pair inner tiles are not worth their making.)
+  tiles_ = std::make_unique<NestedTiles>(polynomials_, tiled_, bounds_.center(),
+                                         polynomials_.size() > 2, kernel_);
+  features_ = {};
+  partition_ = std::make_unique<Partition>(polynomials_, *tiles_, features_, kernel_);
 }
 
 bool Encaser::open_region() {
@@ -216,7 +218,7 @@ bool Encaser::open_polygon() {
   isolate_crossings();
   // Every crossing box must lie on one side of every side's line.
   bool clear = true;
-  for (const Crossing& crossing : partition_->crossings) {
+  for (const Crossing& crossing : features_.crossings) {
     const Place place(crossing.box);
     for (const Line& line : sides_) clear = clear && side(line, place, kernel_).has_value();
   }
@@ -262,7 +264,11 @@ void Encaser::give_up_on_region() {
     cell.vertices.push_back(meet(partition_->lines[(k + n - 1) % n], partition_->lines[k]));
     cell.edges.push_back({k, false, {}});
   }
-  finished_.push_back({std::move(cell), CellState::Undecided, {}});
+  const SplittingTask task{options_, bounds_, result_.undecided, {}, {}};
+  CellSplitter splitter(*partition_, task);
+  splitter.add(std::move(cell));
+  splitter.give_up();
+  take_cells(&splitter);
   budget_ = "the curves' crossings with the region's sides could not be told apart";
   is_used_up_ = true;
   finish_cells();
@@ -333,8 +339,7 @@ void Encaser::isolate_crossings() {
   result_.shared_cover = {};
   curve_roots_.clear();
   if (n > 2) {
-    SharedLeaves shared =
-        share_leaves(partition_->tiles(), sides_, stop("telling which curves meet"), kernel_);
+    SharedLeaves shared = share_leaves(*tiles_, sides_, stop("telling which curves meet"), kernel_);
     result_.statistics.root_boxes += shared.visited;
     const Box<2> whole = tiled_[0].box();
     for (const Box<2>& box : shared.unresolved) {
@@ -375,8 +380,7 @@ void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
     Isolated& result = isolated[index];
     result.kernel = kernel_.fresh();
     const SubdivisionLimits pair_limits = limits(tasks, Unresolved::Kind::Contact, root);
-    NestedTiles& tiles = partition_->tiles();
-    result.roots = isolate_roots(tiles.about(i, root), tiles.about(j, root), root, sides_,
+    result.roots = isolate_roots(tiles_->about(i, root), tiles_->about(j, root), root, sides_,
                                  pair_limits, result.kernel);
     result.smallest = pair_limits.smallest;
     result.stopped = is_used_up_;
@@ -387,14 +391,14 @@ void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
     RootIsolation<2>& roots = from.roots;
     kernel_.add(from.kernel);
     result_.statistics.root_boxes += roots.boxes;
-    const int first = static_cast<int>(partition_->crossings.size());
+    const int first = static_cast<int>(features_.crossings.size());
     for (std::size_t k = 0; k < roots.roots.size(); ++k) {
       Crossing crossing;
       crossing.curves = curves;
       crossing.box = roots.roots[k];
       crossing.point = crossing.box.center();
       crossing.rounded = roots.rounded[k];
-      partition_->crossings.push_back(crossing);
+      features_.crossings.push_back(crossing);
     }
     for (int& token : roots.tokens)
       if (token >= 0) token += first;
@@ -407,8 +411,8 @@ void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
 void Encaser::report_concurrency() {
   // Boxes of different pairs that meet: three curves through one point, as far as can be told.
   std::vector<Box<2>> boxes;
-  boxes.reserve(partition_->crossings.size());
-  for (const Crossing& crossing : partition_->crossings) boxes.push_back(crossing.box);
+  boxes.reserve(features_.crossings.size());
+  for (const Crossing& crossing : features_.crossings) boxes.push_back(crossing.box);
   if (!any_meet(boxes)) return;
   const std::vector<int> component = connected_components(boxes);
   std::vector<std::vector<int>> groups(boxes.size());
@@ -422,7 +426,7 @@ void Encaser::report_concurrency() {
     entry.box = boxes[group[0]];
     for (const int k : group) {
       entry.box = hull(entry.box, boxes[k]);
-      for (const int c : partition_->crossings[k].curves)
+      for (const int c : features_.crossings[k].curves)
         if (std::find(entry.curves.begin(), entry.curves.end(), c) == entry.curves.end())
           entry.curves.push_back(c);
     }
@@ -456,17 +460,17 @@ void Encaser::find_critical_regions() {
     result.smallest = curve_limits.smallest;
     result.stopped = is_used_up_;
   });
-  std::vector<Saddle>& saddles = partition_->saddles;
+  std::vector<Saddle>& saddles = features_.saddles;
   for (std::size_t index = 0; index < curves.size(); ++index) {
     const int c = curves[index];
     CriticalRegions& regions = found[index].regions;
     kernel_.add(found[index].kernel);
     result_.statistics.critical_boxes += regions.boxes;
-    const int first = static_cast<int>(partition_->critical_regions.size());
+    const int first = static_cast<int>(features_.critical_regions.size());
     for (int& token : regions.tokens)
       if (token >= 0) token += first;
     for (CriticalRegion& region : regions.regions)
-      partition_->critical_regions.push_back(std::move(region));
+      features_.critical_regions.push_back(std::move(region));
     saddles.insert(saddles.end(), found[index].saddles.begin(), found[index].saddles.end());
     report({regions.unresolved, regions.root_box, found[index].smallest, found[index].stopped},
            Unresolved::Kind::SingularPoint, {c});
@@ -499,14 +503,14 @@ void Encaser::collect_zones() {
     };
     for (std::size_t j = 0; j < boxes.size(); ++j)
       if (j != k) keep_off(boxes[j]);
-    for (const Crossing& crossing : partition_->crossings) keep_off(crossing.box);
+    for (const Crossing& crossing : features_.crossings) keep_off(crossing.box);
     margin = std::max(margin, 2 * box.largest_width());
     Zone zone{box, box};
     for (int i = 0; i < 2; ++i) {
       zone.clearance.lo[i] -= margin;
       zone.clearance.hi[i] += 1.07 * margin;
     }
-    partition_->zones.push_back(zone);
+    features_.zones.push_back(zone);
   }
 }
 
@@ -530,7 +534,7 @@ void Encaser::decide_outcome() {
   for (const Cell& cell : result_.cells)
     if (cell.state == CellState::Undecided) result_.outcome = Outcome::Undecided;
   for (const Kernel& kernel : tile_kernels_) kernel_.add(kernel);
-  partition_->tiles().add_counts_to(&kernel_);
+  tiles_->add_counts_to(&kernel_);
   Statistics& s = result_.statistics;
   s.candidate_lines = partition_->lines_tried;
   s.decisions = kernel_.decisions;

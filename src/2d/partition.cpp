@@ -24,11 +24,14 @@ bool clear_of(TiledPolynomial& f, const Line& line, const Interval& vertex, Line
 
 }  // namespace
 
-Partition::Partition(const std::vector<FilteredPolynomial<2>>& curves,
-                     std::vector<TiledPolynomial>& tiles, const Point<2>& middle, Kernel& kernel)
-    : curves_(curves),
-      // (For one pair inner tiles are not worth their making.)
-      tiles_(curves, tiles, middle, curves.size() > 2, kernel),
+Partition::Partition(const std::vector<FilteredPolynomial<2>>& curves, NestedTiles& tiles,
+                     Features& features, Kernel& kernel)
+    : crossings(features.crossings),
+      critical_regions(features.critical_regions),
+      zones(features.zones),
+      saddles(features.saddles),
+      curves_(curves),
+      tiles_(tiles),
       kernel_(kernel) {}
 
 bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
@@ -154,6 +157,55 @@ void Partition::fill(OpenCell* cell) {
   for (std::size_t k = 0; k < saddles.size(); ++k)
     if (all_sides([&](const Line& line) { return height(line, saddles[k].at) < 0; }))
       cell->saddles.push_back(static_cast<int>(k));
+}
+
+OpenCell Partition::begin(const Partition& whole, const OpenCell& cell) {
+  OpenCell first(&memory_);
+  first = cell;
+  first.parent = first.sketches = -1;
+  int next = 0;
+  for (int k = 0; k < first.size(); ++k) {
+    OpenCell::Edge& edge = first.edges[k];
+    lines.push_back(whole.lines[edge.line]);
+    edge.line = k;
+    for (; next < edge.end; ++next) {
+      const int id = cell.word[next];
+      line_crossings.push_back(whole.line_crossings[id]);
+      line_crossings.back().line = k;
+      spots_.push_back(whole.spots_[id]);
+      first.word[next] = next;
+    }
+  }
+  return first;
+}
+
+Partition::Numbers Partition::join(const OpenCell& cell, const Partition& part, int first_cell) {
+  Numbers numbers;
+  for (const OpenCell::Edge& edge : cell.edges) numbers.lines.push_back(edge.line);
+  for (std::size_t k = cell.edges.size(); k < part.lines.size(); ++k) {
+    numbers.lines.push_back(static_cast<int>(lines.size()));
+    lines.push_back(part.lines[k]);
+  }
+  numbers.line_crossings.assign(cell.word.begin(), cell.word.end());
+  for (std::size_t k = 0; k < cell.word.size(); ++k) {
+    LineCrossing& c = line_crossings[cell.word[k]];
+    c.lo = std::max(c.lo, part.line_crossings[k].lo);
+    c.hi = std::min(c.hi, part.line_crossings[k].hi);
+  }
+  for (std::size_t k = cell.word.size(); k < part.line_crossings.size(); ++k) {
+    numbers.line_crossings.push_back(static_cast<int>(line_crossings.size()));
+    line_crossings.push_back(part.line_crossings[k]);
+    line_crossings.back().line = numbers.lines[line_crossings.back().line];
+    spots_.push_back(part.spots_[k]);
+  }
+  const int first_cut = static_cast<int>(history.size());
+  const auto child = [&](int c) { return c >= 0 ? c + first_cut : ~(~c + first_cell); };
+  Split& above = history[cell.parent];
+  (cell.positive ? above.positive : above.negative) = child(part.history.empty() ? ~0 : 0);
+  for (const Split& split : part.history)
+    history.push_back({numbers.lines[split.line], child(split.negative), child(split.positive)});
+  lines_tried += part.lines_tried;
+  return numbers;
 }
 
 std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,

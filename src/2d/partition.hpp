@@ -87,19 +87,27 @@ struct Saddle {
   double reach = 0;  ///< about how far the branches are
 };
 
-class Partition {
- public:
-  /// `tiles`: the curves' polynomials over a box that contains the polygon to be opened, around
-  /// the given middle.
-  Partition(const std::vector<FilteredPolynomial<2>>& curves, std::vector<TiledPolynomial>& tiles,
-            const Point<2>& middle, Kernel& kernel);
-
-  std::vector<Line> lines;
-  std::vector<LineCrossing> line_crossings;
+/// What is known of the curves before the first cut. Cells name its entries. Partitions of
+/// different parts of a region share it; of a crossing they change the cell that holds it.
+struct Features {
   std::vector<Crossing> crossings;
   std::vector<CriticalRegion> critical_regions;
   std::vector<Zone> zones;
   std::vector<Saddle> saddles;  ///< those with the nearest branches first
+};
+
+class Partition {
+ public:
+  /// `tiles`: the curves' polynomials over a box that contains the polygon to be opened.
+  Partition(const std::vector<FilteredPolynomial<2>>& curves, NestedTiles& tiles,
+            Features& features, Kernel& kernel);
+
+  std::vector<Line> lines;
+  std::vector<LineCrossing> line_crossings;
+  std::vector<Crossing>& crossings;
+  std::vector<CriticalRegion>& critical_regions;
+  std::vector<Zone>& zones;
+  std::vector<Saddle>& saddles;
   std::vector<Split> history;
   std::int64_t lines_tried = 0;
 
@@ -113,6 +121,18 @@ class Partition {
   std::optional<OpenCell> open(const std::vector<Line>& sides);
   /// Gives the opened cell the crossings, critical regions, zones and saddles inside it.
   void fill(OpenCell* cell);
+
+  /// Begins with an open cell of another partition, as the whole of this one: its edges' lines and
+  /// the crossings of its word come first here, in their order.
+  OpenCell begin(const Partition& whole, const OpenCell& cell);
+  /// For each line and line crossing of a partition what it is in another.
+  struct Numbers {
+    std::vector<int> lines, line_crossings;
+  };
+  /// Takes over the lines, line crossings and cuts of a partition that was begun with this one's
+  /// open cell, half of another, and whose cells will have the numbers from `first_cell` on. Of an
+  /// interval that both have refined, the common part.
+  Numbers join(const OpenCell& cell, const Partition& part, int first_cell);
 
   /// Isolates the roots of a curve between two vertices of a line, on both of which it must not
   /// vanish, and appends them to `roots`; false if something is not proved.
@@ -143,7 +163,7 @@ class Partition {
   std::optional<Sign> side_of(const CriticalRegion& region, const Line& line);
 
   const std::vector<FilteredPolynomial<2>>& curves_;
-  NestedTiles tiles_;
+  NestedTiles& tiles_;
   Kernel& kernel_;
   std::pmr::monotonic_buffer_resource memory_;  ///< of the cells
   std::vector<LineRoot> found_;
