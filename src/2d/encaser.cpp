@@ -75,7 +75,7 @@ SubdivisionLimits Encaser::limits(const char* stage, Unresolved::Kind kind, cons
 
 bool Encaser::out_of_budget() {
   if (!budget_.empty()) return true;
-  if (static_cast<int>(finished_.size()) >= options_.max_cells)
+  if (static_cast<int>(result_.cells.size()) >= options_.max_cells)
     budget_ = "the limit of " + std::to_string(options_.max_cells) + " cells was reached";
   else if (clock_.exceeds(options_.max_seconds))
     budget_ = "the limit of " + decimal(options_.max_seconds) + " CPU seconds was reached";
@@ -227,7 +227,7 @@ void Encaser::give_up_on_region() {
     cell.vertices.push_back(meet(partition_->lines[(k + n - 1) % n], partition_->lines[k]));
     cell.edges.push_back({k, false, {}});
   }
-  finished_.push_back({std::move(cell), CellState::Undecided, {}});
+  finish(cell, CellState::Undecided);
   budget_ = "the curves' crossings with the region's sides could not be told apart";
   finish_cells();
 }

@@ -53,13 +53,9 @@ class Encaser {
               double smallest, std::vector<int> curves);
   void count_pairs();
   void report_concurrency();
-  Cell finish(const OpenCell& open, CellState state, int id);
-
-  struct Finished {
-    OpenCell cell;
-    CellState state;
-    std::vector<LoopCertificate> certificates;
-  };
+  void finish(const OpenCell& open, CellState state);
+  template <class Action>
+  void for_each_cut(Cell* cell, Action action);
 
   const EncaseOptions& options_;
   RunClock clock_;
@@ -72,7 +68,7 @@ class Encaser {
   std::vector<Box<2>> curve_roots_;     // of the curves' critical covers; negative widths: none
   std::unique_ptr<Partition> partition_;
   OpenCell first_cell_;
-  std::vector<Finished> finished_;
+  int unfinished_ = 0;                         // cells that no place that resists excuses
   std::vector<LoopCertificate> certificates_;  // of the cell at hand
   std::string budget_;                         // the sentence that tells which ran out
 };

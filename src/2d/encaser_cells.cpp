@@ -83,19 +83,20 @@ void Encaser::split_cells() {
   SplittingLines lines(at_hand, options_.fast);
   std::vector<OpenCell> stack;
   stack.push_back(std::move(first_cell_));
-  finished_.reserve(2 * partition.crossings.size() + 16);
+  std::vector<Cell>& finished = result_.cells;
+  finished.reserve(2 * partition.crossings.size() + 16);
   const double features = static_cast<double>(partition.crossings.size() + 1);
   for (std::int64_t count = 0; !stack.empty(); ++count) {
     OpenCell cell = std::move(stack.back());
     stack.pop_back();
     if (count % 64 == 63)
       progress("splitting cells",
-               static_cast<double>(finished_.size()) /
-                   (static_cast<double>(finished_.size() + stack.size()) + features));
+               static_cast<double>(finished.size()) /
+                   (static_cast<double>(finished.size() + stack.size()) + features));
     CellState settled = CellState::Undecided;
     certificates_.clear();
     // The clock is slow to read.
-    const bool stop = count % 16 == 0 || static_cast<int>(finished_.size()) >= options_.max_cells
+    const bool stop = count % 16 == 0 || static_cast<int>(finished.size()) >= options_.max_cells
                           ? out_of_budget()
                           : !budget_.empty();
     if (!stop) {
@@ -119,8 +120,8 @@ void Encaser::split_cells() {
     if (cell.parent >= 0)
       (cell.positive ? partition.history[cell.parent].positive
                      : partition.history[cell.parent].negative) =
-          ~static_cast<int>(finished_.size());
-    finished_.push_back({std::move(cell), settled, certificates_});
+          ~static_cast<int>(finished.size());
+    finish(cell, settled);
   }
 }
 
@@ -144,15 +145,20 @@ Point<2> rounded_meet(const Line& first, const Line& second, const Place& at, do
 
 }  // namespace
 
-Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
+/// Makes the cell, but for the cuts between crossings of one edge: their places come last.
+void Encaser::finish(const OpenCell& open, CellState state) {
   Partition& partition = *partition_;
-  Cell cell;
+  const int id = static_cast<int>(result_.cells.size());
+  Cell& cell = result_.cells.emplace_back();
   cell.state = state;
   cell.depth = open.depth;
   const int n = static_cast<int>(open.edges.size());
   const double size = std::max({std::fabs(bounds_.lo[0]), std::fabs(bounds_.hi[0]),
                                 std::fabs(bounds_.lo[1]), std::fabs(bounds_.hi[1])});
-  cell.vertices.reserve(open.edges.size() + open.word.size());
+  std::size_t vertices = 0;
+  for (int k = 0; k < n; ++k)
+    vertices += static_cast<std::size_t>(std::max(1, open.edges[k].end - open.begin_of(k)));
+  cell.vertices.reserve(vertices);
   cell.word.assign(open.word.begin(), open.word.end());
   for (int k = 0; k < n; ++k) {
     const auto& edge = open.edges[k];
@@ -161,68 +167,68 @@ Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
     vertex.point =
         rounded_meet(partition.lines[before], partition.lines[edge.line], open.vertices[k], size);
     cell.vertices.push_back(vertex);
-    for (int i = open.begin_of(k); i < edge.end; ++i) {
-      if (i > open.begin_of(k)) {
-        // A cut between two crossings of one edge; both cells beside it compute the same.
-        const LineCrossing *a = &partition.line_crossings[open.word[i - 1]],
-                           *b = &partition.line_crossings[open.word[i]];
-        if (a->lo > b->lo) std::swap(a, b);
-        const double at = a->hi + 0.5 * (b->lo - a->hi);
-        cell.vertices.push_back(
-            {edge.line, edge.line, at,
-             Place(point_on_line(partition.lines[edge.line], Interval(at))).center});
-      }
-    }
+    for (int i = open.begin_of(k) + 1; i < edge.end; ++i)
+      cell.vertices.push_back({edge.line, edge.line, 0, {}});
   }
   for (const int k : open.crossings) partition.crossings[k].cell = id;
-  if (state == CellState::Certified || state == CellState::Relaxed) {
-    if (!open.crossings.empty()) cell.crossing = open.crossings.front();
-    cell.branches.reserve(cell.word.size() / 2);
-    for (std::size_t i = 0; i < cell.word.size(); ++i)
-      for (std::size_t j = i + 1; j < cell.word.size(); ++j) {
-        const int c = partition.line_crossings[cell.word[i]].curve;
-        if (partition.line_crossings[cell.word[j]].curve == c)
-          cell.branches.push_back({c, cell.word[i], cell.word[j]});
-      }
+  if (state == CellState::Undecided && open.zones.empty()) ++unfinished_;
+  if (state != CellState::Certified && state != CellState::Relaxed) return;
+  if (!open.crossings.empty()) cell.crossing = open.crossings.front();
+  cell.branches.reserve(cell.word.size() / 2);
+  for (std::size_t i = 0; i < cell.word.size(); ++i)
+    for (std::size_t j = i + 1; j < cell.word.size(); ++j) {
+      const int c = partition.line_crossings[cell.word[i]].curve;
+      if (partition.line_crossings[cell.word[j]].curve == c)
+        cell.branches.push_back({c, cell.word[i], cell.word[j]});
+    }
+  cell.loop_certificates = certificates_;
+}
+
+/// Calls `action` with every cut between two crossings of one edge and these, in ascending order.
+template <class Action>
+void Encaser::for_each_cut(Cell* cell, Action action) {
+  std::vector<LineCrossing>& crossings = partition_->line_crossings;
+  std::size_t next = 0;  // entry of the word
+  for (Vertex& vertex : cell->vertices) {
+    if (vertex.line_in == vertex.line_out) {
+      LineCrossing *a = &crossings[cell->word[next - 1]], *b = &crossings[cell->word[next]];
+      if (a->lo > b->lo) std::swap(a, b);
+      action(&vertex, a, b);
+    } else if (next == cell->word.size() || crossings[cell->word[next]].line != vertex.line_out) {
+      continue;  // an edge without crossings
+    }
+    ++next;
   }
-  return cell;
 }
 
 void Encaser::finish_cells() {
   Partition& partition = *partition_;
   // Neighbours on one edge get a gap, so that the edge can be cut between them.
-  for (const Finished& f : finished_)
-    for (int k = 0; k < f.cell.size(); ++k)
-      for (int i = f.cell.begin_of(k); i + 1 < f.cell.edges[k].end; ++i) {
-        const Line& line = partition.lines[f.cell.edges[k].line];
-        LineCrossing *a = &partition.line_crossings[f.cell.word[i]],
-                     *b = &partition.line_crossings[f.cell.word[i + 1]];
-        if (a->lo > b->lo) std::swap(a, b);
-        for (int tries = 0; tries < 80; ++tries) {
-          if (a->hi < b->lo && a->hi + 0.5 * (b->lo - a->hi) > a->hi) break;
-          for (LineCrossing* c : {a, b}) {
-            RootInterval root{c->lo, c->hi};
-            refine_on_line(polynomials_[c->curve], line, &root, kernel_);
-            c->lo = root.lo;
-            c->hi = root.hi;
-          }
+  for (Cell& cell : result_.cells)
+    for_each_cut(&cell, [&](Vertex* cut, LineCrossing* a, LineCrossing* b) {
+      const Line& line = partition.lines[cut->line_in];
+      for (int tries = 0; tries < 80; ++tries) {
+        if (a->hi < b->lo && a->hi + 0.5 * (b->lo - a->hi) > a->hi) break;
+        for (LineCrossing* c : {a, b}) {
+          RootInterval root{c->lo, c->hi};
+          refine_on_line(polynomials_[c->curve], line, &root, kernel_);
+          c->lo = root.lo;
+          c->hi = root.hi;
         }
       }
-  result_.cells.reserve(finished_.size());
-  int unfinished = 0;
-  for (std::size_t k = 0; k < finished_.size(); ++k) {
-    Finished& f = finished_[k];
-    Cell cell = finish(f.cell, f.state, static_cast<int>(k));
-    if (f.state == CellState::Certified || f.state == CellState::Relaxed)
-      cell.loop_certificates = std::move(f.certificates);
-    if (f.state == CellState::Undecided && f.cell.zones.empty()) ++unfinished;
-    result_.cells.push_back(std::move(cell));
-  }
-  if (unfinished > 0) {
+    });
+  // Both cells beside a cut compute the same.
+  for (Cell& cell : result_.cells)
+    for_each_cut(&cell, [&](Vertex* cut, const LineCrossing* a, const LineCrossing* b) {
+      cut->parameter = a->hi + 0.5 * (b->lo - a->hi);
+      const Line& line = partition.lines[cut->line_in];
+      cut->point = Place(point_on_line(line, Interval(cut->parameter))).center;
+    });
+  if (unfinished_ > 0) {
     Unresolved entry;
     entry.kind = Unresolved::Kind::Budget;
     entry.reason =
-        std::to_string(unfinished) + (unfinished == 1 ? " cell is" : " cells are") +
+        std::to_string(unfinished_) + (unfinished_ == 1 ? " cell is" : " cells are") +
         " not settled: " + (budget_.empty() ? "no splitting line could be proved" : budget_);
     result_.undecided.push_back(std::move(entry));
   }

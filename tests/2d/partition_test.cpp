@@ -62,7 +62,7 @@ TEST(Partition, DoesNotOpenWhereACurvePassesThroughACorner) {
   for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
   std::vector<TiledPolynomial> tiles;
   for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
-  Partition partition(curves, tiles, kernel);
+  Partition partition(curves, tiles, {0, 0}, kernel);
   EXPECT_FALSE(partition.open(sides).has_value());
   // A slightly larger polygon moves the corners off the curve, and contains the square.
   const auto larger = enlarged(square, 1);
@@ -85,7 +85,7 @@ TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
   for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
   std::vector<TiledPolynomial> tiles;
   for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
-  Partition partition(curves, tiles, kernel);
+  Partition partition(curves, tiles, {0, 0}, kernel);
   const auto cell = partition.open(sides);
   ASSERT_TRUE(cell.has_value());
   const auto line = [](double a, double b, double c) {
