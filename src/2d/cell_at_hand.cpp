@@ -36,6 +36,8 @@ constexpr double kSliver = 0.045;  // for each halving of the distance to what i
 constexpr double kBalance = 0.05;
 constexpr double kTie = 1e-9;
 
+constexpr int kMostGroups = 80;  // of marks, that are worth bits of their own
+
 // How much larger than the cell the box of its sketches may be: on average, and one side of it.
 constexpr double kLarger = 2.5, kMostLarger = 64;
 
@@ -196,9 +198,10 @@ void CellAtHand::find_points() {
 
 void CellAtHand::mark() {
   const int groups = 1 + 2 * static_cast<int>(whole_.curves.size());
-  marks_.clear(groups);
+  has_all_groups_ = groups <= kMostGroups;
+  marks_.clear(has_all_groups_ ? groups : 1);
   for (const Place& vertex : cell_->vertices) marks_.add(vertex.center);
-  const int first_crossing = marks_.size();
+  first_crossing_mark_ = marks_.size();
   for (const InnerCrossing& crossing : crossings_) marks_.add(crossing.place.center);
   marks_.fill_row(cell_->vertices[0].center);
   near_marks_ = marks_.size();
@@ -206,15 +209,32 @@ void CellAtHand::mark() {
   marks_.fill_row(cell_->vertices[0].center);
   marks_.make_groups();
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const int k = first_crossing + static_cast<int>(i);
+    const int k = first_crossing_mark_ + static_cast<int>(i);
     marks_.join(0, k);
+    if (!has_all_groups_) continue;
     for (const int s : crossings_[i].slots)
       if (s >= 0) marks_.join(1 + 2 * s, k);
   }
-  for (std::size_t i = 0; i < points_.size(); ++i)
+  for (std::size_t i = 0; has_all_groups_ && i < points_.size(); ++i)
     marks_.join(2 + 2 * slot_[points_[i].curve], near_marks_ + static_cast<int>(i));
   heights_.resize(near_marks_);
   positive_.resize(groups);
+}
+
+/// Counts the marks on the positive side of a line, and returns how close it comes to a near one.
+double CellAtHand::divide_marks(const Line& line) {
+  const double least = divide(marks_, line, near_marks_, heights_.data(), positive_.data());
+  if (has_all_groups_) return least;
+  std::fill(positive_.begin() + 1, positive_.end(), 0);
+  const double* of_crossings = &heights_[first_crossing_mark_];
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    if (!(of_crossings[i] > 0)) continue;
+    for (const int s : crossings_[i].slots)
+      if (s >= 0) ++positive_[1 + 2 * s];
+  }
+  for (const BoundaryPoint& point : points_)
+    if (height(line, point.at) > 0) ++positive_[2 + 2 * slot_[point.curve]];
+  return least;
 }
 
 /// The branches in a part, or at least so many while it is not known where the line crosses the
@@ -408,7 +428,7 @@ bool CellAtHand::weigh(double limit, Proposal* proposal) {
   const Line& line = proposal->line;
   const double square = line.normal[0] * line.normal[0] + line.normal[1] * line.normal[1];
   if (!(square > 1e-200 && square < 1e200) || !std::isfinite(line.offset)) return false;
-  const double clearance = divide(marks_, line, near_marks_, heights_.data(), positive_.data());
+  const double clearance = divide_marks(line);
   std::array<Point<2>, 2> ends;
   if (!guess_chord(heights_.data(), &ends)) return false;
   guess_division(positive_.data());

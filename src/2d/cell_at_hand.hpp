@@ -123,6 +123,7 @@ class CellAtHand {
   double begin_score();
   double continue_score(std::size_t slot, int roots);
   bool guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const;
+  double divide_marks(const Line& line);
   void guess_division(const int* positive);
   void provide_sketches();
   const Sketch* sketch(int slot);
@@ -149,8 +150,11 @@ class CellAtHand {
   std::vector<int> slot_;  // of every curve, among those present; -1 for others
   std::vector<InnerCrossing> crossings_;
   // The vertices, the crossings and the points on the boundary; groups: all crossings, and of each
-  // slot the crossings and the points.
+  // slot the crossings and the points. Of many curves these groups would be large and sparse: then
+  // there is only the first, and what is on the positive side is counted mark by mark.
   PointGroups marks_;
+  bool has_all_groups_ = true;
+  int first_crossing_mark_ = 0;
   int near_marks_ = 0;  // vertices and crossings
   std::vector<double> heights_;
   std::vector<int> positive_;       // marks of each group

@@ -8,6 +8,7 @@
 
 #include "2d/nested_tiles.hpp"
 #include "2d/places.hpp"
+#include "2d/recycled_memory.hpp"
 #include "common/filtered_polynomial.hpp"
 #include "common/line_roots.hpp"
 #include "common/segments.hpp"
@@ -165,7 +166,7 @@ class Partition {
   const std::vector<FilteredPolynomial<2>>& curves_;
   NestedTiles& tiles_;
   Kernel& kernel_;
-  std::pmr::monotonic_buffer_resource memory_;  ///< of the cells
+  RecycledMemory memory_;  ///< of the cells
   std::vector<LineRoot> found_;
   std::vector<double> stops_;
   std::vector<Spot> spots_;  ///< of every line crossing

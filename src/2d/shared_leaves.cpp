@@ -21,7 +21,7 @@ constexpr int kInVain = 4;
 /// With more curves a halving counts as long as it takes some away from the other half.
 constexpr std::size_t kSeveral = 8;
 constexpr int kDeepest = 40;  // levels of halvings
-constexpr int kMostBoxes = 200000;
+constexpr double kMostBoxes = 200000;
 /// A part with both widths above this fraction of the whole's is treated as the whole.
 constexpr double kHardlySmaller = 0.6;
 
@@ -48,7 +48,7 @@ class SharedSubdivision {
     whole.alive.resize(static_cast<std::size_t>(curves_.size()));
     for (std::size_t c = 0; c < whole.alive.size(); ++c) whole.alive[c].curve = static_cast<int>(c);
     look_at(0, &whole);
-    visit(0, 0, whole);
+    visit(0, 0, kMostBoxes, whole);
     return std::move(result_);
   }
 
@@ -64,7 +64,7 @@ class SharedSubdivision {
   enum class Look { Outside, Gained, Nothing };
 
   Look look_at(int level, Part* part);
-  void visit(int level, int in_vain, Part& part);
+  void visit(int level, int in_vain, double budget, Part& part);
   bool provide_patch(const Box<2>& box, int level, Alive* alive);
 
   NestedTiles& curves_;
@@ -121,7 +121,7 @@ SharedSubdivision::Look SharedSubdivision::look_at(int level, Part* part) {
 /// Subdivides a part that has been looked at. (In a wide region most curves pass the middle, and
 /// what leads there are boxes that all of them meet beside others that few do: a halving that takes
 /// curves from one half is not in vain for the other, as long as they are several.)
-void SharedSubdivision::visit(int level, int in_vain, Part& part) {
+void SharedSubdivision::visit(int level, int in_vain, double budget, Part& part) {
   SharedCover& cover = result_.cover;
   if (result_.visited++ % 64 == 0 && !stopped_) stopped_ = stop_ && stop_();
   if (stopped_) {
@@ -133,8 +133,8 @@ void SharedSubdivision::visit(int level, int in_vain, Part& part) {
   Part& upper = part;
   const Box<2> box = part.box;
   const int axis = cover::kSplitX - wider_axis(box);
-  if (part.alive.size() <= kFew || in_vain >= kInVain || level == kDeepest ||
-      result_.visited >= kMostBoxes || !halve_box(box, axis, &lower.box, &upper.box)) {
+  if (part.alive.size() <= kFew || in_vain >= kInVain || level == kDeepest || budget < 2 ||
+      !halve_box(box, axis, &lower.box, &upper.box)) {
     cover.tokens.push_back(static_cast<int>(cover.alive.size()));
     auto& names = cover.alive.emplace_back();
     names.reserve(part.alive.size());
@@ -155,12 +155,21 @@ void SharedSubdivision::visit(int level, int in_vain, Part& part) {
   const std::array<Part*, 2> halves{&lower, &upper};
   const std::array<Look, 2> looks{look_at(level + 1, &lower), look_at(level + 1, &upper)};
   const bool several = before > kSeveral;
+  // Either half gets a share of the budget for its pairs of curves.
+  const auto pairs = [](const Part& half, Look look) {
+    const auto curves = static_cast<double>(half.alive.size());
+    return look == Look::Outside || half.alive.size() <= kFew ? 0 : curves * curves;
+  };
+  const std::array<double, 2> weights{pairs(lower, looks[0]), pairs(upper, looks[1])};
+  const double share = (budget - 2) / std::max(1.0, weights[0] + weights[1]);
   for (int k = 0; k < 2; ++k) {
     const bool gained = looks[k] == Look::Gained || (several && looks[1 - k] == Look::Gained);
-    if (looks[k] == Look::Outside)
+    if (looks[k] == Look::Outside) {
+      ++result_.visited;
       cover.tokens.push_back(cover::kOutside);
-    else
-      visit(level + 1, gained ? 0 : in_vain + 1, *halves[k]);
+      continue;
+    }
+    visit(level + 1, gained ? 0 : in_vain + 1, share * weights[k], *halves[k]);
   }
 }
 

@@ -102,7 +102,8 @@ TEST(Allocations, OfIsolatingRootsAreBoundedByTilesAndRoots) {
   for (const int degree : {6, 10, 14, 20}) {
     Pair pair(degree);
     const long before = allocations;
-    const auto roots = isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
+    const auto roots =
+        isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
     const long during = allocations - before;
     EXPECT_LE(during, 2 * (pair.kernel.expansions + static_cast<long>(roots.roots.size()) + 20))
         << "degree " << degree;
@@ -120,7 +121,8 @@ TEST(Allocations, OfCriticalRegionsAreBoundedByTilesAndRegions) {
   for (const int degree : {6, 10, 14, 20}) {
     Pair pair(degree);
     const long before = allocations;
-    const auto found = critical_regions(pair.f, 0, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
+    const auto found =
+        critical_regions(pair.f, 0, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
     const long during = allocations - before;
     long kept = 0;
     for (const auto& region : found.regions) kept += 1 + static_cast<long>(region.boxes.size());
@@ -138,7 +140,8 @@ TEST(Allocations, OfMoreBoxesAreNoMore) {
   Pair pair(12);
   isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
   const long before = allocations;
-  const auto roots = isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
+  const auto roots =
+      isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
   EXPECT_LT(allocations - before, 60);
   EXPECT_GT(roots.boxes, 300);
 }
