@@ -102,9 +102,10 @@ bool CellSplitter::find_cut(CellState* settled) {
   return false;
 }
 
-/// Finishes the cell, or puts its halves on top of the open ones. `keep_sketches`: they are taken
-/// up before any cell that is not a part of this one.
-void CellSplitter::process(const OpenCell& cell, bool keep_sketches) {
+/// Finishes the next cell, or puts its halves on top of the open ones.
+void CellSplitter::process_next() {
+  const OpenCell cell = std::move(open_.back());
+  open_.pop_back();
   CellState settled = CellState::Undecided;
   certificates_.clear();
   at_hand_.take(cell);
@@ -120,7 +121,7 @@ void CellSplitter::process(const OpenCell& cell, bool keep_sketches) {
     return;
   }
   ++splits;
-  negative.sketches = positive.sketches = keep_sketches ? at_hand_.sketches() : -1;
+  negative.sketches = positive.sketches = at_hand_.sketches();
   open_.push_back(std::move(positive));
   open_.push_back(std::move(negative));
 }
@@ -133,25 +134,20 @@ void CellSplitter::run(int most_cells) {
     if (count_ % 64 == 63) task_.progress(done / (done + left));
     // The clock is slow to read.
     if (count_ % 16 == 0 && task_.stop()) return;
-    const OpenCell cell = std::move(open_.back());
-    open_.pop_back();
-    process(cell, true);
+    process_next();
   }
 }
 
-void CellSplitter::divide(int parts) {
-  for (; has_open() && static_cast<int>(open_.size()) < parts && !task_.stop(); ++count_) {
-    const auto largest =
-        std::max_element(open_.begin(), open_.end(), [](const OpenCell& a, const OpenCell& b) {
-          return a.crossings.size() < b.crossings.size();
-        });
-    const OpenCell cell = std::move(*largest);
-    open_.erase(largest);
-    process(cell, false);
-  }
+bool CellSplitter::halve() {
+  if (open_.size() == 1 && !task_.stop()) process_next();
+  return open_.size() == 2;
 }
 
-std::vector<OpenCell> CellSplitter::hand_over() { return std::exchange(open_, {}); }
+std::vector<OpenCell> CellSplitter::hand_over() {
+  std::vector<OpenCell> cells = std::exchange(open_, {});
+  std::reverse(cells.begin(), cells.end());
+  return cells;
+}
 
 void CellSplitter::give_up() {
   certificates_.clear();

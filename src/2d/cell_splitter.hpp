@@ -27,13 +27,11 @@ class CellSplitter {
 
   void add(OpenCell cell) { open_.push_back(std::move(cell)); }
   bool has_open() const { return !open_.empty(); }
-  int open_cells() const { return static_cast<int>(open_.size()); }
   /// Depth first, until no cell is open, `most_cells` are finished, or it is stopped.
   void run(int most_cells);
-  /// Cuts the open cell with the most crossings again and again, until `parts` are open, none is,
-  /// or it is stopped.
-  void divide(int parts);
-  /// The open cells, two at least, which are left to others; see `join`.
+  /// Cuts the only open cell in two; false if it is simple, or splitting is stopped.
+  bool halve();
+  /// The open cells, the next one first. They are left to others; see `join`.
   std::vector<OpenCell> hand_over();
   /// The open cells become undecided ones.
   void give_up();
@@ -52,7 +50,7 @@ class CellSplitter {
  private:
   enum class Shape { Simple, Relaxable, Complex };
   Shape shape_of_cell() const;
-  void process(const OpenCell& cell, bool keep_sketches);
+  void process_next();
   bool find_cut(CellState* settled);
   bool find_cut_at_zone(const OpenCell& cell, CellState* settled);
   void finish(const OpenCell& open, CellState state);

@@ -72,7 +72,9 @@ class Encaser {
   void count_pairs();
   void report_concurrency();
   struct Part;
-  void split_in_parts(CellSplitter* splitter, const SplittingTask& task, int parts);
+  void split_in_parts(const SplittingTask& task, CellSplitter* result);
+  static int cells_in(const Part& part);
+  void gather(Part* part, int* left);
   void run_out(CellSplitter* splitter, int most_cells);
   void take_cells(CellSplitter* splitter);
   template <class Action>

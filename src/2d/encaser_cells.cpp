@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
 
 #include "2d/cell_splitter.hpp"
 #include "2d/encaser.hpp"
@@ -10,22 +12,35 @@ namespace encase {
 
 namespace {
 
-// A part is worth so many crossings; and there are enough of them for the threads of most machines.
-constexpr int kCrossingsOfAPart = 64, kMostParts = 32;
+// A part is worth so much work, and there are enough of them for the threads of most machines.
+constexpr std::size_t kLeastPart = 64;
+constexpr int kMostHalvings = 6;
+
+/// About in proportion to the work that a cell takes.
+std::size_t size_of(const OpenCell& cell) {
+  return cell.crossings.size() + cell.critical_regions.size() + cell.word.size() / 2;
+}
 
 }  // namespace
 
-/// A part of the region, split by itself.
+/// A part of the region, split by itself; or cut in two, which are split by themselves.
 struct Encaser::Part {
-  Part(Encaser& run, const OpenCell& cell, const SplittingTask& task)
-      : kernel(run.kernel_.fresh()),
+  Part(Encaser& run, const Partition& whole, const OpenCell& part, const SplittingTask& task,
+       int cells_allowed)
+      : cell(part),
+        most_cells(cells_allowed),
+        kernel(run.kernel_.fresh()),
         partition(run.polynomials_, *run.tiles_, run.features_, kernel),
         splitter(partition, task) {
-    splitter.add(partition.begin(*run.partition_, cell));
+    splitter.add(partition.begin(whole, cell));
   }
+  const OpenCell& cell;  // of the partition that this is a part of
+  const int most_cells;
   Kernel kernel;
   Partition partition;
   CellSplitter splitter;
+  std::vector<OpenCell> halves;
+  std::vector<std::unique_ptr<Part>> parts;  // of the halves
 };
 
 void Encaser::split_cells() {
@@ -35,11 +50,12 @@ void Encaser::split_cells() {
                            tell};
   CellSplitter splitter(*partition_, task);
   splitter.cells.reserve(2 * features_.crossings.size() + 16);
-  splitter.add(std::move(first_cell_));
-  const int parts =
-      std::min(static_cast<int>(features_.crossings.size()) / kCrossingsOfAPart, kMostParts);
-  if (polynomials_.size() > 2 && parts > 1) split_in_parts(&splitter, task, parts);
-  run_out(&splitter, options_.max_cells);
+  if (polynomials_.size() > 2) {
+    split_in_parts(task, &splitter);
+  } else {
+    splitter.add(std::move(first_cell_));
+    run_out(&splitter, options_.max_cells);
+  }
   take_cells(&splitter);
 }
 
@@ -51,32 +67,63 @@ void Encaser::run_out(CellSplitter* splitter, int most_cells) {
   splitter->give_up();
 }
 
-/// Cuts the region into parts and splits these. What the parts are does not depend on the threads.
-void Encaser::split_in_parts(CellSplitter* splitter, const SplittingTask& task, int parts) {
-  splitter->divide(parts);
-  if (splitter->open_cells() < 2) return;
-  const std::vector<OpenCell> cells = splitter->hand_over();
-  Tasks tasks{"splitting cells", static_cast<int>(cells.size())};
+/// Halves the region, its halves and so on while they are large, and splits what is not; the parts
+/// of one size at the same time. What the parts are does not depend on the number of threads.
+void Encaser::split_in_parts(const SplittingTask& task, CellSplitter* result) {
+  std::atomic<std::size_t> split = 0;  // crossings in the parts that are
   SplittingTask of_part = task;
-  of_part.progress = [&](double) { progress(tasks.stage, tasks.part_done()); };
-  // Each may make as many cells as the others; what is left then goes to those that need more, one
-  // after the other.
-  int left = options_.max_cells - static_cast<int>(splitter->cells.size());
-  const int share = std::max(left, 0) / tasks.count;
-  std::vector<std::unique_ptr<Part>> made(cells.size());
-  run(tasks, [&](int k) {
-    made[k] = std::make_unique<Part>(*this, cells[k], of_part);
-    made[k]->splitter.run(share);
-  });
-  for (const auto& part : made) left -= static_cast<int>(part->splitter.cells.size());
-  for (std::size_t k = 0; k < made.size(); ++k) {
-    CellSplitter& part = made[k]->splitter;
-    const int had = static_cast<int>(part.cells.size());
-    run_out(&part, had + std::max(left, 0));
-    left -= static_cast<int>(part.cells.size()) - had;
-    splitter->join(cells[k], &part);
-    kernel_.add(made[k]->kernel);
-    made[k].reset();
+  of_part.progress = [&](double) {
+    task.progress(static_cast<double>(split) / static_cast<double>(features_.crossings.size() + 1));
+  };
+  Part all(*this, *partition_, first_cell_, of_part, options_.max_cells);
+  std::vector<Part*> level{&all};
+  for (int halvings = 0; !level.empty(); ++halvings) {
+    Tasks tasks{"splitting cells", static_cast<int>(level.size())};
+    run(tasks, [&](int k) {
+      Part& part = *level[k];
+      if (halvings < kMostHalvings && size_of(part.cell) >= 2 * kLeastPart &&
+          part.splitter.halve()) {
+        part.halves = part.splitter.hand_over();
+      } else {
+        part.splitter.run(part.most_cells);
+        split += part.cell.crossings.size();
+      }
+    });
+    std::vector<Part*> next;
+    for (Part* part : level)
+      for (const OpenCell& half : part->halves) {
+        const int left = part->most_cells - static_cast<int>(part->splitter.cells.size());
+        part->parts.push_back(
+            std::make_unique<Part>(*this, part->partition, half, of_part, std::max(left, 0) / 2));
+        next.push_back(part->parts.back().get());
+      }
+    level = std::move(next);
+  }
+  int left = options_.max_cells - cells_in(all);
+  gather(&all, &left);
+  result->join(all.cell, &all.splitter);
+  kernel_.add(all.kernel);
+}
+
+int Encaser::cells_in(const Part& part) {
+  int count = static_cast<int>(part.splitter.cells.size());
+  for (const auto& inner : part.parts) count += cells_in(*inner);
+  return count;
+}
+
+/// Joins the parts of a part. Those that need more cells than they were allowed get what the others
+/// have left, one after the other.
+void Encaser::gather(Part* part, int* left) {
+  if (part->parts.empty()) {
+    const int had = static_cast<int>(part->splitter.cells.size());
+    run_out(&part->splitter, had + std::max(*left, 0));
+    *left -= static_cast<int>(part->splitter.cells.size()) - had;
+  }
+  for (auto& inner : part->parts) {
+    gather(inner.get(), left);
+    part->splitter.join(inner->cell, &inner->splitter);
+    part->kernel.add(inner->kernel);
+    inner.reset();
   }
 }
 

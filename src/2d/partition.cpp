@@ -200,8 +200,10 @@ Partition::Numbers Partition::join(const OpenCell& cell, const Partition& part, 
   }
   const int first_cut = static_cast<int>(history.size());
   const auto child = [&](int c) { return c >= 0 ? c + first_cut : ~(~c + first_cell); };
-  Split& above = history[cell.parent];
-  (cell.positive ? above.positive : above.negative) = child(part.history.empty() ? ~0 : 0);
+  if (cell.parent >= 0) {
+    Split& above = history[cell.parent];
+    (cell.positive ? above.positive : above.negative) = child(part.history.empty() ? ~0 : 0);
+  }
   for (const Split& split : part.history)
     history.push_back({numbers.lines[split.line], child(split.negative), child(split.positive)});
   lines_tried += part.lines_tried;
