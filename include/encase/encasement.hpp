@@ -150,8 +150,8 @@ struct Cell {
   int depth = 0;  ///< number of splits above it
 };
 
-/// One cut of a cell in two: a node of the binary space partition. Nodes are in the order in which
-/// the cuts were made; node 0 cuts the region used. A child c >= 0 is a node, else cell ~c.
+/// One cut of a cell in two: a node of the binary space partition. Nodes are in an order in which
+/// the cuts can be made; node 0 cuts the region used. A child c >= 0 is a node, else cell ~c.
 struct Split {
   int line = -1;
   int negative = 0;  ///< the child on the line's negative side

@@ -10,7 +10,7 @@ namespace encase {
 using Integer = mpz_class;
 using Rational = mpq_class;
 
-enum class Sign : int { Negative = -1, Zero = 0, Positive = 1 };
+enum class Sign : std::int8_t { Negative = -1, Zero = 0, Positive = 1 };
 
 constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
 constexpr Sign sign_of(int value) {

@@ -2,6 +2,7 @@
 #include "encase/arrangement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -62,6 +63,23 @@ class BoundaryPoints {
   Kernel kernel_;
 };
 
+/// Those at a line crossing: there is nothing else than one or two.
+struct StrandEnds {
+  std::array<StrandEnd, 2> ends;
+  std::size_t count = 0;
+  void add(const StrandEnd& end) {
+    if (count < ends.size()) ends[count] = end;
+    ++count;
+  }
+};
+
+/// The half-edges that begin at a vertex, counter-clockwise.
+struct Bundle {
+  std::array<int, 4> half_edges{};
+  std::size_t count = 0;
+  void add(int half_edge) { half_edges[count++] = half_edge; }
+};
+
 class Builder {
  public:
   Builder(const Encasement& encasement, CellParts parts)
@@ -115,8 +133,8 @@ class Builder {
                         parts_.region_of_piece[left],
                         parts_.region_of_piece[right],
                         -1});
-    if (from >= 0) ends_at_[from].push_back({id, 0});
-    ends_at_[to].push_back({id, 1});
+    if (from >= 0) ends_at_[from].add({id, 0});
+    ends_at_[to].add({id, 1});
   }
 
   /// The strands of all cells. The part of a cell behind a point on its boundary lies, seen from
@@ -150,7 +168,7 @@ class Builder {
       }
     }
     for (std::size_t c = 0; c < ends_at_.size(); ++c)
-      if (ends_at_[c].size() != (vertex_at_line_crossing_[c] >= 0 ? 1u : 2u))
+      if (ends_at_[c].count != (vertex_at_line_crossing_[c] >= 0 ? 1u : 2u))
         return fail("line crossing " + std::to_string(c) + " is not where branches go on");
     return true;
   }
@@ -192,7 +210,7 @@ class Builder {
         a_.half_edges[2 * edge + 1].origin = vertex;
         return true;
       }
-      const std::vector<StrandEnd>& here = ends_at_[strand.to];
+      const std::array<StrandEnd, 2>& here = ends_at_[strand.to].ends;
       at = here[here[0].strand == at.strand ? 1 : 0];
       if (at.strand == first) {  // a closed loop
         for (const int h : {2 * edge, 2 * edge + 1})
@@ -237,26 +255,26 @@ class Builder {
     for (std::size_t v = 0; v < a_.vertices.size(); ++v) {
       const Arrangement::Vertex& vertex = a_.vertices[v];
       if (vertex.kind == Arrangement::Vertex::Kind::Crossing) continue;
-      out_[v].push_back(along_boundary[v][0]);
+      out_[v].add(along_boundary[v][0]);
       if (vertex.kind == Arrangement::Vertex::Kind::OnBoundary) {
-        const StrandEnd end = ends_at_[vertex.index][0];
-        out_[v].push_back(strands_[end.strand].along ^ end.end);
+        const StrandEnd end = ends_at_[vertex.index].ends[0];
+        out_[v].add(strands_[end.strand].along ^ end.end);
       }
-      out_[v].push_back(along_boundary[v][1]);
+      out_[v].add(along_boundary[v][1]);
     }
     for (std::size_t k = 0; k < e_.cells.size(); ++k)
       for (int i = 0; vertex_in_cell_[k] >= 0 && i < 4; ++i)
-        out_[vertex_in_cell_[k]].push_back(strands_[first_strand_[k] + i].along);
+        out_[vertex_in_cell_[k]].add(strands_[first_strand_[k] + i].along);
     return true;
   }
 
   /// Around a face to the left, what follows a half-edge is the next one clockwise at its end.
   bool link_half_edges() {
     for (std::size_t v = 0; v < out_.size(); ++v) {
-      const std::vector<int>& out = out_[v];
+      const auto& [out, count] = out_[v];
       a_.vertices[v].half_edge = out[0];
-      for (std::size_t i = 0; i < out.size(); ++i) {
-        const int arriving = Arrangement::twin(out[(i + 1) % out.size()]), leaving = out[i];
+      for (std::size_t i = 0; i < count; ++i) {
+        const int arriving = Arrangement::twin(out[(i + 1) % count]), leaving = out[i];
         a_.half_edges[arriving].next = leaving;
         a_.half_edges[leaving].prev = arriving;
         if (a_.half_edges[arriving].face != a_.half_edges[leaving].face ||
@@ -295,9 +313,9 @@ class Builder {
   std::vector<int> vertex_at_line_crossing_;  ///< -1 inside the region
   std::vector<int> vertex_in_cell_;
   std::vector<RawStrand> strands_;
-  std::vector<int> first_strand_;                ///< of every cell
-  std::vector<std::vector<StrandEnd>> ends_at_;  ///< by line crossing
-  std::vector<std::vector<int>> out_;            ///< by vertex, counter-clockwise
+  std::vector<int> first_strand_;    ///< of every cell
+  std::vector<StrandEnds> ends_at_;  ///< by line crossing
+  std::vector<Bundle> out_;          ///< by vertex
   std::string fault_;
 };
 

@@ -16,7 +16,7 @@ std::vector<std::vector<int>> cycles_by_face(const Arrangement& a) {
   std::vector<bool> seen(a.half_edges.size(), false);
   for (int h = 0; h < static_cast<int>(a.half_edges.size()); ++h) {
     if (seen[h]) continue;
-    for (const int k : a.cycle(h)) seen[k] = true;
+    for (int k = h; !seen[k]; k = a.half_edges[k].next) seen[k] = true;
     cycles[a.half_edges[h].face].push_back(h);
   }
   return cycles;
@@ -41,11 +41,14 @@ void collect_components(Arrangement* arrangement) {
         if (v < 0 || seen[v]) continue;
         seen[v] = true;
         ++component.vertices;
-        for (const int k : a.around(v)) {
+        const int start = a.vertices[v].half_edge;
+        int k = start;
+        do {
           int& of = a.edges[Arrangement::edge_of(k)].component;
           if (of < 0) stack.push_back(Arrangement::edge_of(k));
           of = id;
-        }
+          k = Arrangement::twin(a.half_edges[k].prev);
+        } while (k != start);
       }
     }
     a.components.push_back(std::move(component));
@@ -106,17 +109,20 @@ std::string find_signs(const Encasement& e, const std::vector<std::vector<int>>&
   a.faces[start].signs = std::move(signs);
   std::vector<int> queue = {start};
   for (std::size_t i = 0; i < queue.size(); ++i)
-    for (const int first : at_face[queue[i]])
-      for (const int h : a.cycle(first)) {
+    for (const int first : at_face[queue[i]]) {
+      int h = first;
+      do {
         const int other = a.half_edges[Arrangement::twin(h)].face;
         const int curve = a.edges[Arrangement::edge_of(h)].curve;
+        h = a.half_edges[h].next;
         if (known[other]) continue;
         known[other] = true;
         std::vector<Sign> changed = a.faces[queue[i]].signs;
         if (curve >= 0) changed[curve] = -changed[curve];
         a.faces[other].signs = std::move(changed);
         queue.push_back(other);
-      }
+      } while (h != first);
+    }
   return queue.size() + 1 == a.faces.size() ? "" : "a face has no neighbours";
 }
 

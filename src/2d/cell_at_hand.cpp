@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "common/sketch.hpp"
 #include "common/tile_samples.hpp"
@@ -34,6 +35,8 @@ constexpr double kFurtherBranchOfCurves = 1.7;
 constexpr double kSliver = 0.045;  // for each halving of the distance to what is closest
 constexpr double kBalance = 0.05;
 constexpr double kTie = 1e-9;
+
+constexpr int kMostGroups = 80;  // of marks, that are worth bits of their own
 
 // How much larger than the cell the box of its sketches may be: on average, and one side of it.
 constexpr double kLarger = 2.5, kMostLarger = 64;
@@ -85,22 +88,13 @@ const Expectations expectations;
 }  // namespace
 
 CellAtHand::CellAtHand(Partition& partition) : partition_(partition) {
-  slot_.resize(partition.curves().size());
+  slot_.resize(partition.curves().size(), -1);
 }
 
 void CellAtHand::take(const OpenCell& cell) {
   cell_ = &cell;
   start_again();
-  std::fill(slot_.begin(), slot_.end(), cell.zones.empty() ? -1 : 0);
-  const auto& crossings = partition_.line_crossings;
-  for (const int id : cell.word) slot_[crossings[id].curve] = 0;
-  for (const int k : cell.critical_regions) slot_[partition_.critical_regions[k].curve] = 0;
-  whole_.curves.clear();
-  for (std::size_t c = 0; c < slot_.size(); ++c) {
-    if (slot_[c] < 0) continue;
-    slot_[c] = static_cast<int>(whole_.curves.size());
-    whole_.curves.push_back({static_cast<int>(c), 0, 0});
-  }
+  find_curves();
   whole_.crossings = static_cast<int>(cell.crossings.size());
   crossings_.clear();
   for (const int id : cell.crossings) {
@@ -115,6 +109,26 @@ void CellAtHand::take(const OpenCell& cell) {
   find_points();
   expected_cells_ = expected_cells(whole_);
   is_prepared_ = false;
+}
+
+/// The curves that may meet the cell, and their slots. (Of many curves few do: nothing is done for
+/// the others.)
+void CellAtHand::find_curves() {
+  std::vector<Presence>& curves = whole_.curves;
+  for (const Presence& p : curves) slot_[p.curve] = -1;
+  curves.clear();
+  const auto note = [&](int curve) {
+    if (slot_[curve] >= 0) return;
+    slot_[curve] = 0;
+    curves.push_back({curve, 0, 0});
+  };
+  for (const int id : cell_->word) note(partition_.line_crossings[id].curve);
+  for (const int k : cell_->critical_regions) note(partition_.critical_regions[k].curve);
+  if (!cell_->zones.empty())
+    for (std::size_t c = 0; c < slot_.size(); ++c) note(static_cast<int>(c));
+  std::sort(curves.begin(), curves.end(),
+            [](const Presence& a, const Presence& b) { return a.curve < b.curve; });
+  for (std::size_t s = 0; s < curves.size(); ++s) slot_[curves[s].curve] = static_cast<int>(s);
 }
 
 /// What is needed to weigh lines, once for every cell that is cut.
@@ -134,27 +148,42 @@ void CellAtHand::provide_sketches() {
     const double x = box.width(0) / bounds_.width(0), y = box.width(1) / bounds_.width(1);
     return std::max(x, y) > kMostLarger || x * y > kLarger * kLarger;
   };
+  const std::vector<Presence>& here = whole_.curves;
+  sketch_of_slot_.resize(here.size());
   last_sketches_ = cell_->sketches;
   if (last_sketches_ >= 0 && sketches_[last_sketches_].serve &&
-      !is_far_larger(sketches_[last_sketches_].box))
+      !is_far_larger(sketches_[last_sketches_].box)) {
+    // The curves of a cell are among those of its ancestors, and both lists ascend.
+    const std::vector<int>& known = sketches_[last_sketches_].curves;
+    std::size_t k = 0;
+    for (std::size_t s = 0; s < here.size(); ++s) {
+      while (known[k] != here[s].curve) ++k;
+      sketch_of_slot_[s] = static_cast<int>(k);
+    }
     return;
-  if (++last_sketches_ == static_cast<int>(sketches_.size())) {
-    sketches_.emplace_back().curves.resize(partition_.curves().size());
   }
-  sketches_[last_sketches_].box = bounds_;
-  sketches_[last_sketches_].serve = true;
-  for (auto& of_curve : sketches_[last_sketches_].curves) of_curve.made = false;
+  if (++last_sketches_ == static_cast<int>(sketches_.size())) sketches_.emplace_back();
+  Sketches& made = sketches_[last_sketches_];
+  made.box = bounds_;
+  made.serve = true;
+  made.curves.clear();
+  for (const Presence& p : here) made.curves.push_back(p.curve);
+  made.states.assign(here.size(), Sketches::State::Missing);
+  if (made.sketches.size() < here.size()) made.sketches.resize(here.size());
+  std::iota(sketch_of_slot_.begin(), sketch_of_slot_.end(), 0);
 }
 
-const Sketch* CellAtHand::sketch(int curve) {
-  Sketches& sketches = sketches_[last_sketches_];
-  auto& of_curve = sketches.curves[curve];
-  if (!of_curve.made) {
-    of_curve.made = true;
-    of_curve.serves = make_sketch(partition_.tiles()[curve], sketches.box, &of_curve.sketch);
-    sketches.serve = sketches.serve && of_curve.serves;
+/// A curve's polynomial about the cell, or null if it has no sketch.
+const Sketch* CellAtHand::sketch(int slot) {
+  Sketches& all = sketches_[last_sketches_];
+  const auto k = static_cast<std::size_t>(sketch_of_slot_[static_cast<std::size_t>(slot)]);
+  if (all.states[k] == Sketches::State::Missing) {
+    const bool serves =
+        make_sketch(partition_.tiles().about(all.curves[k], all.box), all.box, &all.sketches[k]);
+    all.states[k] = serves ? Sketches::State::Serves : Sketches::State::Useless;
+    all.serve = all.serve && serves;
   }
-  return of_curve.serves ? &of_curve.sketch : nullptr;
+  return all.states[k] == Sketches::State::Serves ? &all.sketches[k] : nullptr;
 }
 
 void CellAtHand::find_points() {
@@ -169,9 +198,10 @@ void CellAtHand::find_points() {
 
 void CellAtHand::mark() {
   const int groups = 1 + 2 * static_cast<int>(whole_.curves.size());
-  marks_.clear(groups);
+  has_all_groups_ = groups <= kMostGroups;
+  marks_.clear(has_all_groups_ ? groups : 1);
   for (const Place& vertex : cell_->vertices) marks_.add(vertex.center);
-  const int first_crossing = marks_.size();
+  first_crossing_mark_ = marks_.size();
   for (const InnerCrossing& crossing : crossings_) marks_.add(crossing.place.center);
   marks_.fill_row(cell_->vertices[0].center);
   near_marks_ = marks_.size();
@@ -179,15 +209,32 @@ void CellAtHand::mark() {
   marks_.fill_row(cell_->vertices[0].center);
   marks_.make_groups();
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const int k = first_crossing + static_cast<int>(i);
+    const int k = first_crossing_mark_ + static_cast<int>(i);
     marks_.join(0, k);
+    if (!has_all_groups_) continue;
     for (const int s : crossings_[i].slots)
       if (s >= 0) marks_.join(1 + 2 * s, k);
   }
-  for (std::size_t i = 0; i < points_.size(); ++i)
+  for (std::size_t i = 0; has_all_groups_ && i < points_.size(); ++i)
     marks_.join(2 + 2 * slot_[points_[i].curve], near_marks_ + static_cast<int>(i));
   heights_.resize(near_marks_);
   positive_.resize(groups);
+}
+
+/// Counts the marks on the positive side of a line, and returns how close it comes to a near one.
+double CellAtHand::divide_marks(const Line& line) {
+  const double least = divide(marks_, line, near_marks_, heights_.data(), positive_.data());
+  if (has_all_groups_) return least;
+  std::fill(positive_.begin() + 1, positive_.end(), 0);
+  const double* of_crossings = &heights_[first_crossing_mark_];
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    if (!(of_crossings[i] > 0)) continue;
+    for (const int s : crossings_[i].slots)
+      if (s >= 0) ++positive_[1 + 2 * s];
+  }
+  for (const BoundaryPoint& point : points_)
+    if (height(line, point.at) > 0) ++positive_[2 + 2 * slot_[point.curve]];
+  return least;
 }
 
 /// The branches in a part, or at least so many while it is not known where the line crosses the
@@ -209,22 +256,31 @@ bool CellAtHand::leaves_simple_parts() const {
   return is_simple(parts_[0]) && is_simple(parts_[1]);
 }
 
+void CellAtHand::Branches::add(const Presence& p) {
+  const int more = branches_of(p);
+  curves += more > 0;
+  count += more;
+  cells += expectations.for_branches(more, p.crossings);
+}
+
+CellAtHand::Branches CellAtHand::Branches::and_those(const Branches& other) const {
+  return {curves + other.curves, count + other.count, cells + other.cells};
+}
+
+double CellAtHand::expected_cells(int crossings, const Branches& branches) {
+  if (crossings > 1) return expectations.for_crossings(crossings) + branches.cells;
+  if (crossings == 0) {
+    if (branches.count == 0) return kEmpty;
+    const double further = branches.curves == 1 ? kFurtherBranchOfOneCurve : kFurtherBranchOfCurves;
+    return kFinishedBranch + further * (branches.count - 1);
+  }
+  return branches.count == 2 ? kFinishedCrossing : expectations.for_crossings(1) + branches.cells;
+}
+
 double CellAtHand::expected_cells(const Part& part) {
-  int curves = 0, branches = 0;
-  double of_branches = 0;
-  for (const Presence& p : part.curves) {
-    const int count = branches_of(p);
-    curves += count > 0;
-    branches += count;
-    of_branches += expectations.for_branches(count, p.crossings);
-  }
-  if (part.crossings > 1) return expectations.for_crossings(part.crossings) + of_branches;
-  if (part.crossings == 0) {
-    if (branches == 0) return kEmpty;
-    const double further = curves == 1 ? kFurtherBranchOfOneCurve : kFurtherBranchOfCurves;
-    return kFinishedBranch + further * (branches - 1);
-  }
-  return branches == 2 ? kFinishedCrossing : expectations.for_crossings(1) + of_branches;
+  Branches all;
+  for (const Presence& p : part.curves) all.add(p);
+  return expected_cells(part.crossings, all);
 }
 
 int CellAtHand::least_cells(const Part& part) {
@@ -234,14 +290,44 @@ int CellAtHand::least_cells(const Part& part) {
   return std::max(1, total);
 }
 
+double CellAtHand::score(double negative, double positive) const {
+  return negative + positive + slivers_ -
+         kBalance * std::min(negative, positive) / (negative + positive);
+}
+
 double CellAtHand::score() const {
-  const double a = expected_cells(parts_[0]), b = expected_cells(parts_[1]);
-  return a + b + slivers_ - kBalance * std::min(a, b) / (a + b);
+  return score(expected_cells(parts_[0]), expected_cells(parts_[1]));
+}
+
+/// Begins to take the roots of one curve after the other into the score.
+double CellAtHand::begin_score() {
+  const std::size_t size = whole_.curves.size();
+  to_come_.resize(size + 1);
+  to_come_[size] = {};
+  for (std::size_t s = size; s-- > 0;) {
+    to_come_[s] = to_come_[s + 1];
+    for (int k = 0; k < 2; ++k) to_come_[s][k].add(parts_[k].curves[s]);
+  }
+  passed_ = {};
+  return score(expected_cells(parts_[0].crossings, to_come_[0][0]),
+               expected_cells(parts_[1].crossings, to_come_[0][1]));
+}
+
+/// The next curve is the one of a slot, with so many roots on the line.
+double CellAtHand::continue_score(std::size_t slot, int roots) {
+  std::array<double, 2> cells;
+  for (int k = 0; k < 2; ++k) {
+    Presence& p = parts_[k].curves[slot];
+    p.ends += roots;
+    passed_[k].add(p);
+    cells[k] = expected_cells(parts_[k].crossings, passed_[k].and_those(to_come_[slot + 1][k]));
+  }
+  return score(cells[0], cells[1]);
 }
 
 /// Whether the line cannot become better than the best. Counts only grow, so this may be asked
 /// before all curves are restricted to it.
-bool CellAtHand::is_beaten() const { return has_cut_ && !(score() < best_.score - kTie); }
+bool CellAtHand::is_beaten(double score) const { return has_cut_ && !(score < best_.score - kTie); }
 
 void CellAtHand::clear_parts() {
   for (Part& part : parts_) {
@@ -293,7 +379,7 @@ void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& point
   std::uint32_t left = 0xffff;
   while (left != 0) {
     const int curve = points[std::countr_zero(left)].curve;
-    const Sketch* f = sketch(curve);
+    const Sketch* f = sketch(slot_[curve]);
     SketchSlopes at_points;
     if (f) {
       alignas(64) Sketch::Lanes s, t;
@@ -310,29 +396,28 @@ void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& point
         (*result)[k] = {at_points.value[k],
                         {at_points.s[k] * f->scale[0], at_points.t[k] * f->scale[1]}};
       else
-        (*result)[k] = value_and_gradient(partition_.tiles()[curve], points[k].at);
+        (*result)[k] = value_and_gradient(partition_.tiles().whole(curve), points[k].at);
     }
   }
 }
 
 /// The number of roots that a curve seems to have on a chord.
-int CellAtHand::guess_roots_of(int curve, const std::array<Point<2>, 2>& ends) {
-  if (const Sketch* f = sketch(curve)) return count_sign_changes(*f, ends[0], ends[1]);
-  return count_sign_changes(partition_.tiles()[curve], ends[0], ends[1]);
+int CellAtHand::guess_roots_of(int slot, const std::array<Point<2>, 2>& ends) {
+  if (const Sketch* f = sketch(slot)) return count_sign_changes(*f, ends[0], ends[1]);
+  TiledPolynomial& f = partition_.tiles().about(whole_.curves[slot].curve, bounds_);
+  return count_sign_changes(f, ends[0], ends[1]);
 }
 
 /// Adds the roots that the curves seem to have on a chord, and returns the score; stops once that
 /// reaches the limit.
 double CellAtHand::guess_roots(const std::array<Point<2>, 2>& ends, double limit) {
-  double reached = score();
+  double reached = begin_score();
   for (std::size_t s = 0; s < whole_.curves.size() && reached < limit; ++s) {
     const int old = parts_[0].curves[s].ends;
-    int roots = guess_roots_of(whole_.curves[s].curve, ends);
+    int roots = guess_roots_of(static_cast<int>(s), ends);
     // A curve enters a cell as often as it leaves it.
     if ((roots + old) % 2 != 0) ++roots;
-    if (roots == 0) continue;
-    for (Part& part : parts_) part.curves[s].ends += roots;
-    reached = score();
+    reached = continue_score(s, roots);
   }
   return reached;
 }
@@ -343,7 +428,7 @@ bool CellAtHand::weigh(double limit, Proposal* proposal) {
   const Line& line = proposal->line;
   const double square = line.normal[0] * line.normal[0] + line.normal[1] * line.normal[1];
   if (!(square > 1e-200 && square < 1e200) || !std::isfinite(line.offset)) return false;
-  const double clearance = divide(marks_, line, near_marks_, heights_.data(), positive_.data());
+  const double clearance = divide_marks(line);
   std::array<Point<2>, 2> ends;
   if (!guess_chord(heights_.data(), &ends)) return false;
   guess_division(positive_.data());
@@ -446,19 +531,17 @@ bool CellAtHand::add_new_crossings(const Line& line) {
   if (!(from.hi < to.lo)) std::swap(from, to);
   if (!(from.hi < to.lo)) return false;
   trial_.roots.clear();
+  begin_score();
   for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
     const std::size_t before = trial_.roots.size();
     if (!partition_.isolate_between(whole_.curves[s].curve, line, from, to, kMaxNodes,
                                     &trial_.roots))
       return false;
-    for (Part& part : parts_) {
-      int& ends = part.curves[s].ends;
-      ends += static_cast<int>(trial_.roots.size() - before);
-      // A curve enters a cell as often as it leaves it: a free check of all the above.
-      if (ends % 2 != 0) return false;
-    }
-    // (Where there are many curves in the cell, few of them meet the line.)
-    if (trial_.roots.size() > before && is_beaten()) return false;
+    const double reached = continue_score(s, static_cast<int>(trial_.roots.size() - before));
+    // A curve enters a cell as often as it leaves it: a free check of all the above.
+    for (const Part& part : parts_)
+      if (part.curves[s].ends % 2 != 0) return false;
+    if (is_beaten(reached)) return false;
   }
   return true;
 }
@@ -467,7 +550,7 @@ bool CellAtHand::cuts_well(const Line& line) {
   double clearance = HUGE_VAL;
   if (!cross_boundary(line, &clearance) || !divide_crossings(line, &clearance)) return false;
   set_slivers(line, clearance);
-  return count_old_crossings(line) && !is_beaten() && add_new_crossings(line);
+  return count_old_crossings(line) && !is_beaten(score()) && add_new_crossings(line);
 }
 
 /// Proves what a line does, and keeps the cut if it is the best.

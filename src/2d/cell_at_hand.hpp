@@ -44,8 +44,6 @@ class CellAtHand {
   };
   const std::vector<BoundaryPoint>& points() const { return points_; }
 
-  /// The curve's polynomial about the cell, or null if it has no sketch.
-  const Sketch* sketch(int curve);
   /// The values and gradients of points' curves, about.
   void values_and_gradients(const std::array<BoundaryPoint, 16>& points,
                             std::array<ValueAndGradient, 16>* result);
@@ -92,13 +90,20 @@ class CellAtHand {
   };
   /// Sketches of the curves over a box, made when they are first asked for.
   struct Sketches {
+    enum class State : char { Missing, Serves, Useless };
     Box<2> box;
-    struct OfCurve {
-      Sketch sketch;
-      bool made = false, serves = false;
-    };
-    std::vector<OfCurve> curves;
-    bool serve = true;  ///< all that have been asked for
+    std::vector<int> curves;       ///< ascending
+    std::vector<State> states;     ///< of their sketches
+    std::vector<Sketch> sketches;  ///< at least as many
+    bool serve = true;             ///< all that have been asked for
+  };
+  /// The branches of some curves in a part.
+  struct Branches {
+    int curves = 0;    ///< with branches
+    int count = 0;     ///< of branches
+    double cells = 0;  ///< what they add to the cells to be expected
+    void add(const Presence& presence);
+    Branches and_those(const Branches& other) const;
   };
   struct InnerCrossing {
     Place place;
@@ -112,21 +117,28 @@ class CellAtHand {
   static int branches_of(const Presence& presence);
   static bool is_simple(const Part& part);
   bool leaves_simple_parts() const;
+  static double expected_cells(int crossings, const Branches& branches);
   static double expected_cells(const Part& part);
   static int least_cells(const Part& part);
   void clear_parts();
+  void find_curves();
   void find_points();
   void prepare();
   void mark();
+  double score(double negative, double positive) const;
   double score() const;
+  double begin_score();
+  double continue_score(std::size_t slot, int roots);
   bool guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const;
+  double divide_marks(const Line& line);
   void guess_division(const int* positive);
   void provide_sketches();
-  int guess_roots_of(int curve, const std::array<Point<2>, 2>& ends);
+  const Sketch* sketch(int slot);
+  int guess_roots_of(int slot, const std::array<Point<2>, 2>& ends);
   double guess_roots(const std::array<Point<2>, 2>& ends, double limit);
   bool weigh(double limit, Proposal* proposal);
   void set_slivers(const Line& line, double clearance);
-  bool is_beaten() const;
+  bool is_beaten(double score) const;
   void prove(const Line& line);
   bool cross_boundary(const Line& line, double* clearance);
   bool divide_crossings(const Line& line, double* clearance);
@@ -138,16 +150,24 @@ class CellAtHand {
   const OpenCell* cell_ = nullptr;
   Part whole_;
   std::array<Part, 2> parts_;
+  // While the roots of one curve after the other come into the score: the branches in either part
+  // of the curves that have been counted, and of the slots from each one on as they are without.
+  std::array<Branches, 2> passed_;
+  std::vector<std::array<Branches, 2>> to_come_;
   std::vector<int> slot_;  // of every curve, among those present; -1 for others
   std::vector<InnerCrossing> crossings_;
   // The vertices, the crossings and the points on the boundary; groups: all crossings, and of each
-  // slot the crossings and the points.
+  // slot the crossings and the points. Of many curves these groups would be large and sparse: then
+  // there is only the first, and what is on the positive side is counted mark by mark.
   PointGroups marks_;
+  bool has_all_groups_ = true;
+  int first_crossing_mark_ = 0;
   int near_marks_ = 0;  // vertices and crossings
   std::vector<double> heights_;
   std::vector<int> positive_;       // marks of each group
   std::vector<Sketches> sketches_;  // of the cell and those of its ancestors that are in use
   int last_sketches_ = 0;           // those in use
+  std::vector<int> sketch_of_slot_;
   Box<2> bounds_;
   double extent_ = 0;
   double expected_cells_ = 0;

@@ -111,9 +111,9 @@ class Maker {
       const bool cross = branches_cross(e_, cell);
       if (cross != (cell.crossing >= 0))
         return fail(name(k) + " names a crossing without branches that cross, or the reverse");
-      std::vector<int> behind(std::max<std::size_t>(size, 1), -1);
+      std::array<int, 4> behind{-1, -1, -1, -1};
       int between = -1;  // the piece between two branches that do not cross
-      for (std::size_t i = 0; i < behind.size(); ++i) {
+      for (std::size_t i = 0; i < std::max<std::size_t>(size, 1); ++i) {
         const bool is_between = size == 4 && !cross &&
                                 e_.line_crossings[cell.word[i]].curve !=
                                     e_.line_crossings[cell.word[(i + 1) % size]].curve;
@@ -125,7 +125,7 @@ class Maker {
         if (is_between) between = behind[i];
         parts_.pieces.push_back({static_cast<int>(k), static_cast<int>(i), -1});
       }
-      parts_.piece_behind.push_back(std::move(behind));
+      parts_.piece_behind.push_back(behind);
     }
     return true;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct CellParts {
   int piece(int cell, std::size_t word) const {
     return piece_behind[static_cast<std::size_t>(cell)][word];
   }
-  std::vector<std::vector<int>> piece_behind;
+  std::vector<std::array<int, 4>> piece_behind;  ///< by cell; as many as its word has entries
 };
 
 /// Whether the four branch ends of a cell alternate between its two curves: they cross.

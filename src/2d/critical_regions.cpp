@@ -34,11 +34,11 @@ std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
   return component;
 }
 
-CriticalRegions critical_regions(TiledPolynomial& f, int curve,
+CriticalRegions critical_regions(TiledPolynomial& f, int curve, const Box<2>& root,
                                  const std::vector<Line>& half_planes,
                                  const SubdivisionLimits& limits, Kernel& kernel) {
   CriticalRegions result;
-  result.root_box = f.box();
+  result.root_box = root;
   // Small regions are cut by fewer lines but reached by more rays, and some saddles drop out on the
   // way; a region is not split below this width once f has a sign on it.
   const double fine = result.root_box.largest_width() * 0x1p-3;
@@ -98,7 +98,7 @@ CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, cons
                                  const std::vector<Line>& half_planes,
                                  const SubdivisionLimits& limits, Kernel& kernel) {
   TiledPolynomial tiled(f, subdivision_root(box), kernel);
-  return critical_regions(tiled, curve, half_planes, limits, kernel);
+  return critical_regions(tiled, curve, tiled.box(), half_planes, limits, kernel);
 }
 
 }  // namespace encase

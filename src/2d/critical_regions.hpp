@@ -22,12 +22,12 @@ struct CriticalRegions {
   int boxes = 0;
 };
 
-/// Finds boxes that contain every local maximum of |f| in the part of a box (that of
-/// the tiles) on the negative side of
+/// Finds boxes that contain every local maximum of |f| in the part of a box on the negative side of
 /// the half planes, f being of one sign on each, joined to connected regions (thesis 3.1, with
 /// Bernstein enclosures in place of its quadratic Taylor bound). The curve has no singular point
-/// outside the unresolved boxes. `curve` is written into the regions.
-CriticalRegions critical_regions(TiledPolynomial& f, int curve,
+/// outside the unresolved boxes. `curve` is written into the regions. The tiles cover `root`, the
+/// box.
+CriticalRegions critical_regions(TiledPolynomial& f, int curve, const Box<2>& root,
                                  const std::vector<Line>& half_planes,
                                  const SubdivisionLimits& limits, Kernel& kernel);
 CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, const Box<2>& box,

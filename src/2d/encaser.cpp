@@ -109,7 +109,7 @@ SubdivisionLimits Encaser::limits(Tasks& tasks, Unresolved::Kind kind, const Box
   const double whole = tiled_.front().box().largest_width();
   limits.smallest = smallest_part(kind) * (whole / root.largest_width());
   limits.stop = [this, &tasks] {
-    progress(tasks.stage, tasks.count > 2 ? static_cast<double>(tasks.done) / tasks.count : -1);
+    progress(tasks.stage, tasks.count > 2 ? tasks.part_done() : -1);
     return out_of_budget();
   };
   return limits;
@@ -117,9 +117,7 @@ SubdivisionLimits Encaser::limits(Tasks& tasks, Unresolved::Kind kind, const Box
 
 bool Encaser::out_of_budget() {
   if (is_used_up_) return true;
-  if (static_cast<int>(finished_.size()) >= options_.max_cells)
-    use_up_budget("the limit of " + std::to_string(options_.max_cells) + " cells was reached");
-  else if (clock_.exceeds(options_.max_seconds))
+  if (clock_.exceeds(options_.max_seconds))
     use_up_budget("the limit of " + decimal(options_.max_seconds) + " CPU seconds was reached");
   return is_used_up_;
 }
@@ -201,7 +199,12 @@ void Encaser::use_region(const Region& region) {
   tile_kernels_.resize(polynomials_.size(), kernel_.fresh());
   for (std::size_t c = 0; c < polynomials_.size(); ++c)
     tiled_.emplace_back(polynomials_[c], root, tile_kernels_[c]);
-  partition_ = std::make_unique<Partition>(polynomials_, tiled_, kernel_);
+  if (tiles_) tiles_->add_counts_to(&kernel_);
+  // (For one pair inner tiles are not worth their making.)
+  tiles_ = std::make_unique<NestedTiles>(polynomials_, tiled_, bounds_.center(),
+                                         polynomials_.size() > 2, kernel_);
+  features_ = {};
+  partition_ = std::make_unique<Partition>(polynomials_, *tiles_, features_, kernel_);
   earlier_.match(result_.curves, region);
 }
 
@@ -230,7 +233,7 @@ bool Encaser::open_polygon() {
   isolate_crossings();
   // Every crossing box must lie on one side of every side's line.
   bool clear = true;
-  for (const Crossing& crossing : partition_->crossings) {
+  for (const Crossing& crossing : features_.crossings) {
     const Place place(crossing.box);
     for (const Line& line : sides_) clear = clear && side(line, place, kernel_).has_value();
   }
@@ -276,7 +279,11 @@ void Encaser::give_up_on_region() {
     cell.vertices.push_back(meet(partition_->lines[(k + n - 1) % n], partition_->lines[k]));
     cell.edges.push_back({k, false, {}});
   }
-  finished_.push_back({std::move(cell), CellState::Undecided, {}});
+  const SplittingTask task{options_, bounds_, result_.undecided, {}, {}};
+  CellSplitter splitter(*partition_, task);
+  splitter.add(std::move(cell));
+  splitter.give_up();
+  take_cells(&splitter);
   budget_ = "the curves' crossings with the region's sides could not be told apart";
   is_used_up_ = true;
   finish_cells();
@@ -347,7 +354,7 @@ void Encaser::isolate_crossings() {
   result_.shared_cover = {};
   curve_roots_.clear();
   if (n > 2) {
-    SharedLeaves shared = share_leaves(tiled_, sides_, stop("telling which curves meet"), kernel_);
+    SharedLeaves shared = share_leaves(*tiles_, sides_, stop("telling which curves meet"), kernel_);
     result_.statistics.root_boxes += shared.visited;
     const Box<2> whole = tiled_[0].box();
     for (const Box<2>& box : shared.unresolved) {
@@ -362,7 +369,7 @@ void Encaser::isolate_crossings() {
       if (box.width(0) > 0) box = root_around(box, whole);
     std::vector<Pair> pairs;
     for (const MeetingPair& pair : meeting_pairs(shared))
-      if (!earlier_.append_crossings(pair.curves, pair.hull, &partition_->crossings,
+      if (!earlier_.append_crossings(pair.curves, pair.hull, &features_.crossings,
                                      &result_.crossing_covers))
         pairs.push_back({pair.curves, root_around(pair.hull, whole)});
     isolate_pairs(pairs);
@@ -390,16 +397,8 @@ void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
     Isolated& result = isolated[index];
     result.kernel = kernel_.fresh();
     const SubdivisionLimits pair_limits = limits(tasks, Unresolved::Kind::Contact, root);
-    const auto isolate = [&](TiledPolynomial& f, TiledPolynomial& g) {
-      return isolate_roots(f, g, sides_, pair_limits, result.kernel);
-    };
-    if (root == tiled_[i].box()) {
-      result.roots = isolate(tiled_[i], tiled_[j]);
-    } else {
-      TiledPolynomial f(polynomials_[i], root, result.kernel),
-          g(polynomials_[j], root, result.kernel);
-      result.roots = isolate(f, g);
-    }
+    result.roots = isolate_roots(tiles_->about(i, root), tiles_->about(j, root), root, sides_,
+                                 pair_limits, result.kernel);
     result.smallest = pair_limits.smallest;
     result.stopped = is_used_up_;
   });
@@ -409,14 +408,14 @@ void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
     RootIsolation<2>& roots = from.roots;
     kernel_.add(from.kernel);
     result_.statistics.root_boxes += roots.boxes;
-    const int first = static_cast<int>(partition_->crossings.size());
+    const int first = static_cast<int>(features_.crossings.size());
     for (std::size_t k = 0; k < roots.roots.size(); ++k) {
       Crossing crossing;
       crossing.curves = curves;
       crossing.box = roots.roots[k];
       crossing.point = crossing.box.center();
       crossing.rounded = roots.rounded[k];
-      partition_->crossings.push_back(crossing);
+      features_.crossings.push_back(crossing);
     }
     for (int& token : roots.tokens)
       if (token >= 0) token += first;
@@ -429,8 +428,8 @@ void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
 void Encaser::report_concurrency() {
   // Boxes of different pairs that meet: three curves through one point, as far as can be told.
   std::vector<Box<2>> boxes;
-  boxes.reserve(partition_->crossings.size());
-  for (const Crossing& crossing : partition_->crossings) boxes.push_back(crossing.box);
+  boxes.reserve(features_.crossings.size());
+  for (const Crossing& crossing : features_.crossings) boxes.push_back(crossing.box);
   if (!any_meet(boxes)) return;
   const std::vector<int> component = connected_components(boxes);
   std::vector<std::vector<int>> groups(boxes.size());
@@ -444,7 +443,7 @@ void Encaser::report_concurrency() {
     entry.box = boxes[group[0]];
     for (const int k : group) {
       entry.box = hull(entry.box, boxes[k]);
-      for (const int c : partition_->crossings[k].curves)
+      for (const int c : features_.crossings[k].curves)
         if (std::find(entry.curves.begin(), entry.curves.end(), c) == entry.curves.end())
           entry.curves.push_back(c);
     }
@@ -458,7 +457,7 @@ void Encaser::find_critical_regions() {
   std::vector<int> curves;
   for (int c = 0; c < static_cast<int>(polynomials_.size()); ++c)
     if (curve_roots_[c].width(0) > 0 &&  // others have no zero in the region
-        !earlier_.append_critical_regions(c, curve_roots_[c], &partition_->critical_regions,
+        !earlier_.append_critical_regions(c, curve_roots_[c], &features_.critical_regions,
                                           &result_.critical_covers))
       curves.push_back(c);
   struct Found {
@@ -476,30 +475,22 @@ void Encaser::find_critical_regions() {
     Found& result = found[index];
     result.kernel = kernel_.fresh();
     const SubdivisionLimits curve_limits = limits(tasks, Unresolved::Kind::SingularPoint, root);
-    const auto find = [&](TiledPolynomial& f) {
-      return critical_regions(f, c, sides_, curve_limits, result.kernel);
-    };
-    if (root == tiled_[c].box()) {
-      result.regions = find(tiled_[c]);
-    } else {
-      TiledPolynomial f(polynomials_[c], root, result.kernel);
-      result.regions = find(f);
-    }
+    result.regions = critical_regions(tiled_[c], c, root, sides_, curve_limits, result.kernel);
     append_saddles(tiled_[c], c, result.regions.other_points, &result.saddles);
     result.smallest = curve_limits.smallest;
     result.stopped = is_used_up_;
   });
-  std::vector<Saddle>& saddles = partition_->saddles;
+  std::vector<Saddle>& saddles = features_.saddles;
   for (std::size_t index = 0; index < curves.size(); ++index) {
     const int c = curves[index];
     CriticalRegions& regions = found[index].regions;
     kernel_.add(found[index].kernel);
     result_.statistics.critical_boxes += regions.boxes;
-    const int first = static_cast<int>(partition_->critical_regions.size());
+    const int first = static_cast<int>(features_.critical_regions.size());
     for (int& token : regions.tokens)
       if (token >= 0) token += first;
     for (CriticalRegion& region : regions.regions)
-      partition_->critical_regions.push_back(std::move(region));
+      features_.critical_regions.push_back(std::move(region));
     saddles.insert(saddles.end(), found[index].saddles.begin(), found[index].saddles.end());
     report({regions.unresolved, regions.root_box, found[index].smallest, found[index].stopped},
            Unresolved::Kind::SingularPoint, {c});
@@ -532,14 +523,14 @@ void Encaser::collect_zones() {
     };
     for (std::size_t j = 0; j < boxes.size(); ++j)
       if (j != k) keep_off(boxes[j]);
-    for (const Crossing& crossing : partition_->crossings) keep_off(crossing.box);
+    for (const Crossing& crossing : features_.crossings) keep_off(crossing.box);
     margin = std::max(margin, 2 * box.largest_width());
     Zone zone{box, box};
     for (int i = 0; i < 2; ++i) {
       zone.clearance.lo[i] -= margin;
       zone.clearance.hi[i] += 1.07 * margin;
     }
-    partition_->zones.push_back(zone);
+    features_.zones.push_back(zone);
   }
 }
 
@@ -563,6 +554,7 @@ void Encaser::decide_outcome() {
   for (const Cell& cell : result_.cells)
     if (cell.state == CellState::Undecided) result_.outcome = Outcome::Undecided;
   for (const Kernel& kernel : tile_kernels_) kernel_.add(kernel);
+  tiles_->add_counts_to(&kernel_);
   Statistics& s = result_.statistics;
   s.candidate_lines = partition_->lines_tried;
   s.decisions = kernel_.decisions;

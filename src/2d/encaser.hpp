@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "2d/cell_splitter.hpp"
 #include "2d/earlier_encasement.hpp"
 #include "2d/partition.hpp"
-#include "2d/splitting_lines.hpp"
 #include "common/run_clock.hpp"
 #include "common/subdivision.hpp"
 #include "common/tile.hpp"
@@ -41,11 +41,6 @@ class Encaser {
   Encasement take_result() { return std::move(result_); }
 
  private:
-  enum class Shape { Simple, Relaxable, Complex };
-  static Shape shape_of(const CellAtHand& at_hand);
-  bool repeat_cut(CellAtHand& at_hand);
-  bool find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* settled);
-  bool find_cut_at_zone(const OpenCell& cell, SplittingLines& lines, CellState* settled);
   // These three may be called by several threads.
   bool out_of_budget();
   /// Tells the caller's progress callback; a refusal uses the budget up.
@@ -57,6 +52,7 @@ class Encaser {
     const char* stage;
     int count;
     std::atomic<int> done = 0;
+    double part_done() const { return static_cast<double>(done) / count; }
   };
   void run(Tasks& tasks, const std::function<void(int index)>& task);
   bool open_polygon();
@@ -79,13 +75,14 @@ class Encaser {
   void report(const Leftover& left, Unresolved::Kind kind, std::vector<int> curves);
   void count_pairs();
   void report_concurrency();
-  Cell finish(const OpenCell& open, CellState state, int id);
-
-  struct Finished {
-    OpenCell cell;
-    CellState state;
-    std::vector<LoopCertificate> certificates;
-  };
+  struct Part;
+  void split_in_parts(const SplittingTask& task, CellSplitter* result);
+  static int cells_in(const Part& part);
+  void gather(Part* part, int* left);
+  void run_out(CellSplitter* splitter, int most_cells);
+  void take_cells(CellSplitter* splitter);
+  template <class Action>
+  void for_each_cut(Cell* cell, Action action);
 
   const EncaseOptions& options_;
   EarlierEncasement earlier_;
@@ -100,10 +97,11 @@ class Encaser {
   std::vector<Line> sides_;             // of region_used
   Box<2> bounds_;                       // of region_used
   std::vector<Box<2>> curve_roots_;     // of the curves' critical covers; negative widths: none
+  std::unique_ptr<NestedTiles> tiles_;  // with inner ones
+  Features features_;
   std::unique_ptr<Partition> partition_;
   OpenCell first_cell_;
-  std::vector<Finished> finished_;
-  std::vector<LoopCertificate> certificates_;  // of the cell at hand
+  int unfinished_ = 0;  // cells that no place that resists excuses
   std::mutex progress_mutex_, budget_mutex_;
   std::atomic<bool> is_used_up_ = false;
   std::string budget_;  // the sentence that tells which ran out; empty unless is_used_up_

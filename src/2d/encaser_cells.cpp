@@ -1,241 +1,185 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <tuple>
+#include <memory>
 
+#include "2d/cell_splitter.hpp"
 #include "2d/encaser.hpp"
-#include "2d/loop_certificates.hpp"
-#include "2d/splitting_lines.hpp"
 #include "common/segments.hpp"
 
 namespace encase {
 
-Encaser::Shape Encaser::shape_of(const CellAtHand& at_hand) {
-  const OpenCell& cell = at_hand.cell();
-  int curves = 0;
-  for (const auto& presence : at_hand.curves()) {
-    if (presence.ends > 2) return Shape::Complex;
-    curves += presence.ends > 0;
-  }
-  if (curves < 2) return cell.crossings.empty() ? Shape::Simple : Shape::Complex;
-  if (curves > 2) return Shape::Complex;
-  const bool alternates = at_hand.curve_at(0) == at_hand.curve_at(2);
-  if (cell.crossings.size() == 1 && alternates) return Shape::Simple;
-  if (cell.crossings.empty() && !alternates) return Shape::Relaxable;
-  return Shape::Complex;
-}
-
-/// A cell that meets a zone is cut down to the clearance of one.
-bool Encaser::find_cut_at_zone(const OpenCell& cell, SplittingLines& lines, CellState* settled) {
-  const Partition& partition = *partition_;
-  const Box<2> bounds = bounds_of(cell);
-  const double diameter = bounds_.largest_width();
-  for (const int k : cell.zones) {
-    const Zone& zone = partition.zones[k];
-    if (zone.box.largest_width() > diameter / 8) break;
-    for (const double scale : {1.0, 0.83, 1.21}) {
-      Box<2> around = zone.clearance;
-      for (int i = 0; i < 2; ++i) {
-        around.lo[i] = zone.box.lo[i] - scale * (zone.box.lo[i] - zone.clearance.lo[i]);
-        around.hi[i] = zone.box.hi[i] + scale * (zone.clearance.hi[i] - zone.box.hi[i]);
-      }
-      if (around.contains(bounds)) break;
-      if (lines.find_along(around)) return true;
-    }
-  }
-  // What is left of a cell around a zone is not proved.
-  bool budget = false;
-  for (const Unresolved& entry : result_.undecided)
-    for (const int k : cell.zones)
-      budget = budget || (entry.has_box && partition.zones[k].box.contains(entry.box));
-  *settled = budget ? CellState::Undecided : CellState::Degenerate;
-  return false;
-}
-
-/// Whether the cell at hand is cut by the line that cut it in the earlier encasement.
-bool Encaser::repeat_cut(CellAtHand& at_hand) {
-  const int cut = at_hand.cell().earlier_cut;
-  return cut >= 0 && at_hand.prove_only(earlier_.line(cut));
-}
-
-/// The line that splits the cell at hand next, or false and the state it is settled in.
-bool Encaser::find_cut(CellAtHand& at_hand, SplittingLines& lines, CellState* settled) {
-  const OpenCell& cell = at_hand.cell();
-  if (!cell.zones.empty()) return find_cut_at_zone(cell, lines, settled);
-  *settled = CellState::Undecided;
-  const Shape shape = shape_of(at_hand);
-  const bool relax =
-      shape == Shape::Relaxable && (options_.relaxed || cell.stall >= options_.relax_after_splits);
-  if (shape != Shape::Simple && !relax)
-    return cell.depth < 400 && (lines.find_best() || lines.find_any());
-  // Loops last: a ray for every critical region inside, or a split through it.
-  for (const int k : cell.critical_regions) {
-    if (auto certificate = certify_no_loop(at_hand, k)) {
-      certificates_.push_back(*certificate);
-      continue;
-    }
-    ++result_.statistics.loop_splits;
-    for (const Box<2>& box : partition_->critical_regions[k].boxes)
-      if (lines.find_through(box.center())) return true;
-    return lines.find_any();
-  }
-  *settled = relax ? CellState::Relaxed : CellState::Certified;
-  return false;
-}
-
-void Encaser::split_cells() {
-  Partition& partition = *partition_;
-  partition.fill(&first_cell_);
-  first_cell_.earlier_cut = earlier_.first_cut();
-  CellAtHand at_hand(partition);
-  SplittingLines lines(at_hand, options_.fast);
-  std::vector<OpenCell> stack;
-  stack.push_back(std::move(first_cell_));
-  finished_.reserve(2 * partition.crossings.size() + 16);
-  const double features = static_cast<double>(partition.crossings.size() + 1);
-  for (std::int64_t count = 0; !stack.empty(); ++count) {
-    OpenCell cell = std::move(stack.back());
-    stack.pop_back();
-    if (count % 64 == 63)
-      progress("splitting cells",
-               static_cast<double>(finished_.size()) /
-                   (static_cast<double>(finished_.size() + stack.size()) + features));
-    CellState settled = CellState::Undecided;
-    certificates_.clear();
-    // The clock is slow to read.
-    const bool stop = count % 16 == 0 || static_cast<int>(finished_.size()) >= options_.max_cells
-                          ? out_of_budget()
-                          : !budget_.empty();
-    if (!stop) {
-      at_hand.take(cell);
-      bool repeated = repeat_cut(at_hand);
-      bool found = repeated || find_cut(at_hand, lines, &settled);
-      OpenCell negative(partition.memory()), positive(partition.memory());
-      // If the order of the roots on the line cannot be proved: any other line.
-      if (found && !partition.apply(cell, &at_hand.cut(), &negative, &positive)) {
-        settled = CellState::Undecided;
-        repeated = false;
-        found = lines.find_any() && partition.apply(cell, &at_hand.cut(), &negative, &positive);
-      }
-      if (found) {
-        ++result_.statistics.splits;
-        negative.sketches = positive.sketches = at_hand.sketches();
-        if (repeated)
-          std::tie(negative.earlier_cut, positive.earlier_cut) =
-              earlier_.next_cuts(cell.earlier_cut);
-        stack.push_back(std::move(positive));
-        stack.push_back(std::move(negative));
-        continue;
-      }
-      if (settled == CellState::Undecided) certificates_.clear();
-    }
-    if (cell.parent >= 0)
-      (cell.positive ? partition.history[cell.parent].positive
-                     : partition.history[cell.parent].negative) =
-          ~static_cast<int>(finished_.size());
-    finished_.push_back({std::move(cell), settled, certificates_});
-  }
-}
-
 namespace {
 
-/// The meeting point of two lines, good to an ulp or so of `size`: from its enclosure where that is
-/// tight, in extended precision where the lines meet at a small angle, or exactly.
-Point<2> rounded_meet(const Line& first, const Line& second, const Place& at, double size) {
-  const double width = at.box.largest_width();
-  if (width <= 0x1p-51 * size) return at.center;
-  if (Kernel::kHasExtended && width <= 0x1p-42 * size && !first.rational && !second.rational) {
-    const long double a = first.normal[0], b = first.normal[1], c = first.offset;
-    const long double d = second.normal[0], e = second.normal[1], f = second.offset;
-    const long double determinant = a * e - b * d;
-    return {static_cast<double>((b * f - c * e) / determinant),
-            static_cast<double>((c * d - a * f) / determinant)};
-  }
-  const auto exact = exact_meet(first, second);
-  return {nearest_double(exact[0]), nearest_double(exact[1])};
+// A part is worth so much work, and there are enough of them for the threads of most machines.
+constexpr std::size_t kLeastPart = 64;
+constexpr int kMostHalvings = 6;
+
+/// About in proportion to the work that a cell takes.
+std::size_t size_of(const OpenCell& cell) {
+  return cell.crossings.size() + cell.critical_regions.size() + cell.word.size() / 2;
 }
 
 }  // namespace
 
-Cell Encaser::finish(const OpenCell& open, CellState state, int id) {
-  Partition& partition = *partition_;
-  Cell cell;
-  cell.state = state;
-  cell.depth = open.depth;
-  const int n = static_cast<int>(open.edges.size());
-  const double size = std::max({std::fabs(bounds_.lo[0]), std::fabs(bounds_.hi[0]),
-                                std::fabs(bounds_.lo[1]), std::fabs(bounds_.hi[1])});
-  cell.vertices.reserve(open.edges.size() + open.word.size());
-  cell.word.assign(open.word.begin(), open.word.end());
-  for (int k = 0; k < n; ++k) {
-    const auto& edge = open.edges[k];
-    const int before = open.edges[(k + n - 1) % n].line;
-    Vertex vertex{before, edge.line, 0, {}};
-    vertex.point =
-        rounded_meet(partition.lines[before], partition.lines[edge.line], open.vertices[k], size);
-    cell.vertices.push_back(vertex);
-    for (int i = open.begin_of(k); i < edge.end; ++i) {
-      if (i > open.begin_of(k)) {
-        // A cut between two crossings of one edge; both cells beside it compute the same.
-        const LineCrossing *a = &partition.line_crossings[open.word[i - 1]],
-                           *b = &partition.line_crossings[open.word[i]];
-        if (a->lo > b->lo) std::swap(a, b);
-        const double at = a->hi + 0.5 * (b->lo - a->hi);
-        cell.vertices.push_back(
-            {edge.line, edge.line, at,
-             Place(point_on_line(partition.lines[edge.line], Interval(at))).center});
+/// A part of the region, split by itself; or cut in two, which are split by themselves.
+struct Encaser::Part {
+  Part(Encaser& run, const Partition& whole, const OpenCell& part, const SplittingTask& task,
+       int cells_allowed)
+      : cell(part),
+        most_cells(cells_allowed),
+        kernel(run.kernel_.fresh()),
+        partition(run.polynomials_, *run.tiles_, run.features_, kernel),
+        splitter(partition, task) {
+    splitter.add(partition.begin(whole, cell));
+  }
+  const OpenCell& cell;  // of the partition that this is a part of
+  const int most_cells;
+  Kernel kernel;
+  Partition partition;
+  CellSplitter splitter;
+  std::vector<OpenCell> halves;
+  std::vector<std::unique_ptr<Part>> parts;  // of the halves
+};
+
+void Encaser::split_cells() {
+  partition_->fill(&first_cell_);
+  first_cell_.earlier_cut = earlier_.first_cut();
+  const auto tell = [this](double done) { progress("splitting cells", done); };
+  const SplittingTask task{
+      options_, earlier_, bounds_, result_.undecided, [this] { return out_of_budget(); }, tell};
+  CellSplitter splitter(*partition_, task);
+  splitter.cells.reserve(2 * features_.crossings.size() + 16);
+  if (polynomials_.size() > 2) {
+    split_in_parts(task, &splitter);
+  } else {
+    splitter.add(std::move(first_cell_));
+    run_out(&splitter, options_.max_cells);
+  }
+  take_cells(&splitter);
+}
+
+/// Splits what is open until the cells are at most so many. What is open then stays undecided.
+void Encaser::run_out(CellSplitter* splitter, int most_cells) {
+  splitter->run(most_cells);
+  if (!splitter->has_open()) return;
+  use_up_budget("the limit of " + std::to_string(options_.max_cells) + " cells was reached");
+  splitter->give_up();
+}
+
+/// Halves the region, its halves and so on while they are large, and splits what is not; the parts
+/// of one size at the same time. What the parts are does not depend on the number of threads.
+void Encaser::split_in_parts(const SplittingTask& task, CellSplitter* result) {
+  std::atomic<std::size_t> split = 0;  // crossings in the parts that are
+  SplittingTask of_part = task;
+  of_part.progress = [&](double) {
+    task.progress(static_cast<double>(split) / static_cast<double>(features_.crossings.size() + 1));
+  };
+  Part all(*this, *partition_, first_cell_, of_part, options_.max_cells);
+  std::vector<Part*> level{&all};
+  for (int halvings = 0; !level.empty(); ++halvings) {
+    Tasks tasks{"splitting cells", static_cast<int>(level.size())};
+    run(tasks, [&](int k) {
+      Part& part = *level[k];
+      if (halvings < kMostHalvings && size_of(part.cell) >= 2 * kLeastPart &&
+          part.splitter.halve()) {
+        part.halves = part.splitter.hand_over();
+      } else {
+        part.splitter.run(part.most_cells);
+        split += part.cell.crossings.size();
       }
+    });
+    std::vector<Part*> next;
+    for (Part* part : level)
+      for (const OpenCell& half : part->halves) {
+        const int left = part->most_cells - static_cast<int>(part->splitter.cells.size());
+        part->parts.push_back(
+            std::make_unique<Part>(*this, part->partition, half, of_part, std::max(left, 0) / 2));
+        next.push_back(part->parts.back().get());
+      }
+    level = std::move(next);
+  }
+  int left = options_.max_cells - cells_in(all);
+  gather(&all, &left);
+  result->join(all.cell, &all.splitter);
+  kernel_.add(all.kernel);
+}
+
+int Encaser::cells_in(const Part& part) {
+  int count = static_cast<int>(part.splitter.cells.size());
+  for (const auto& inner : part.parts) count += cells_in(*inner);
+  return count;
+}
+
+/// Joins the parts of a part. Those that need more cells than they were allowed get what the others
+/// have left, one after the other.
+void Encaser::gather(Part* part, int* left) {
+  if (part->parts.empty()) {
+    const int had = static_cast<int>(part->splitter.cells.size());
+    run_out(&part->splitter, had + std::max(*left, 0));
+    *left -= static_cast<int>(part->splitter.cells.size()) - had;
+  }
+  for (auto& inner : part->parts) {
+    gather(inner.get(), left);
+    part->splitter.join(inner->cell, &inner->splitter);
+    part->kernel.add(inner->kernel);
+    inner.reset();
+  }
+}
+
+void Encaser::take_cells(CellSplitter* splitter) {
+  result_.cells = std::move(splitter->cells);
+  result_.statistics.splits = splitter->splits;
+  result_.statistics.loop_splits = splitter->loop_splits;
+  unfinished_ = splitter->unfinished;
+}
+
+/// Calls `action` with every cut between two crossings of one edge and these, in ascending order.
+template <class Action>
+void Encaser::for_each_cut(Cell* cell, Action action) {
+  std::vector<LineCrossing>& crossings = partition_->line_crossings;
+  std::size_t next = 0;  // entry of the word
+  for (Vertex& vertex : cell->vertices) {
+    if (vertex.line_in == vertex.line_out) {
+      LineCrossing *a = &crossings[cell->word[next - 1]], *b = &crossings[cell->word[next]];
+      if (a->lo > b->lo) std::swap(a, b);
+      action(&vertex, a, b);
+    } else if (next == cell->word.size() || crossings[cell->word[next]].line != vertex.line_out) {
+      continue;  // an edge without crossings
     }
+    ++next;
   }
-  for (const int k : open.crossings) partition.crossings[k].cell = id;
-  if (state == CellState::Certified || state == CellState::Relaxed) {
-    if (!open.crossings.empty()) cell.crossing = open.crossings.front();
-    cell.branches.reserve(cell.word.size() / 2);
-    for (std::size_t i = 0; i < cell.word.size(); ++i)
-      for (std::size_t j = i + 1; j < cell.word.size(); ++j) {
-        const int c = partition.line_crossings[cell.word[i]].curve;
-        if (partition.line_crossings[cell.word[j]].curve == c)
-          cell.branches.push_back({c, cell.word[i], cell.word[j]});
-      }
-  }
-  return cell;
 }
 
 void Encaser::finish_cells() {
   Partition& partition = *partition_;
   // Neighbours on one edge get a gap, so that the edge can be cut between them.
-  for (const Finished& f : finished_)
-    for (int k = 0; k < f.cell.size(); ++k)
-      for (int i = f.cell.begin_of(k); i + 1 < f.cell.edges[k].end; ++i) {
-        const Line& line = partition.lines[f.cell.edges[k].line];
-        LineCrossing *a = &partition.line_crossings[f.cell.word[i]],
-                     *b = &partition.line_crossings[f.cell.word[i + 1]];
-        if (a->lo > b->lo) std::swap(a, b);
-        for (int tries = 0; tries < 80; ++tries) {
-          if (a->hi < b->lo && a->hi + 0.5 * (b->lo - a->hi) > a->hi) break;
-          for (LineCrossing* c : {a, b}) {
-            RootInterval root{c->lo, c->hi};
-            refine_on_line(polynomials_[c->curve], line, &root, kernel_);
-            c->lo = root.lo;
-            c->hi = root.hi;
-          }
+  for (Cell& cell : result_.cells)
+    for_each_cut(&cell, [&](Vertex* cut, LineCrossing* a, LineCrossing* b) {
+      const Line& line = partition.lines[cut->line_in];
+      for (int tries = 0; tries < 80; ++tries) {
+        if (a->hi < b->lo && a->hi + 0.5 * (b->lo - a->hi) > a->hi) break;
+        for (LineCrossing* c : {a, b}) {
+          RootInterval root{c->lo, c->hi};
+          refine_on_line(polynomials_[c->curve], line, &root, kernel_);
+          c->lo = root.lo;
+          c->hi = root.hi;
         }
       }
-  result_.cells.reserve(finished_.size());
-  int unfinished = 0;
-  for (std::size_t k = 0; k < finished_.size(); ++k) {
-    Finished& f = finished_[k];
-    Cell cell = finish(f.cell, f.state, static_cast<int>(k));
-    if (f.state == CellState::Certified || f.state == CellState::Relaxed)
-      cell.loop_certificates = std::move(f.certificates);
-    if (f.state == CellState::Undecided && f.cell.zones.empty()) ++unfinished;
-    result_.cells.push_back(std::move(cell));
-  }
-  if (unfinished > 0) {
+    });
+  // Both cells beside a cut compute the same.
+  for (Cell& cell : result_.cells)
+    for_each_cut(&cell, [&](Vertex* cut, const LineCrossing* a, const LineCrossing* b) {
+      cut->parameter = a->hi + 0.5 * (b->lo - a->hi);
+      const Line& line = partition.lines[cut->line_in];
+      cut->point = Place(point_on_line(line, Interval(cut->parameter))).center;
+    });
+  if (unfinished_ > 0) {
     Unresolved entry;
     entry.kind = Unresolved::Kind::Budget;
     entry.reason =
-        std::to_string(unfinished) + (unfinished == 1 ? " cell is" : " cells are") +
+        std::to_string(unfinished_) + (unfinished_ == 1 ? " cell is" : " cells are") +
         " not settled: " + (budget_.empty() ? "no splitting line could be proved" : budget_);
     result_.undecided.push_back(std::move(entry));
   }

@@ -19,12 +19,21 @@ constexpr double kWidest = 0.5;  // what may stay open around one direction: it 
 // Of the sides: curves that go to infinity along a diagonal of one rectangle do not along others'.
 constexpr std::array<double, 4> kRatios{1, 0.75, 1.375, 0.625};
 
-/// A curve in a chart, and its derivative along v.
-struct Outside {
-  FilteredPolynomial<2> f, slope;
+/// A curve in a chart, and its derivative along v, made when it is first asked for.
+class Outside {
+ public:
   Outside(const Polynomial<2>& p, const Point<2>& half, int chart)
-      : Outside(outside_of_rectangle(p, half, chart)) {}
-  explicit Outside(const Polynomial<2>& p) : f(p), slope(p.derivative(1)) {}
+      : p_(outside_of_rectangle(p, half, chart)), f_(p_) {}
+  const FilteredPolynomial<2>& f() const { return f_; }
+  const FilteredPolynomial<2>& slope() {
+    if (!slope_) slope_.emplace(p_.derivative(1));
+    return *slope_;
+  }
+
+ private:
+  Polynomial<2> p_;
+  FilteredPolynomial<2> f_;
+  std::optional<FilteredPolynomial<2>> slope_;
 };
 
 Box<2> box_of(double lo, double hi) { return {{-1, lo}, {1, hi}}; }
@@ -63,10 +72,10 @@ class Charting {
     if (question_.stop && question_.stop()) return false;
     std::vector<int> here;
     for (const int c : curves)
-      if (!keeps_sign(outside_[c].f, lo, hi, question_.kernel)) here.push_back(c);
+      if (!keeps_sign(outside_[c].f(), lo, hi, question_.kernel)) here.push_back(c);
     const bool at_corner = lo == -1 || hi == 1;
     if (here.empty() || (here.size() == 1 && !at_corner &&
-                         keeps_sign(outside_[here[0]].slope, lo, hi, question_.kernel))) {
+                         keeps_sign(outside_[here[0]].slope(), lo, hi, question_.kernel))) {
       result->pieces.push_back({chart_, lo, hi, here.empty() ? -1 : here[0]});
       return true;
     }

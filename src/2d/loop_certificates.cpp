@@ -32,6 +32,8 @@ void add_targets(const Point<2>& from, int edge, const Point<2>& a, const Point<
   }
 }
 
+Box<2> around(const Point<2>& a, const Point<2>& b) { return hull(Box<2>{a, a}, Box<2>{b, b}); }
+
 /// Whether f seems to keep its sign from one point to the other, well away from zero: what is
 /// hopeless or hard to prove is not tried.
 bool seems_free(const FilteredPolynomial<2>& f, Sign sign, const Point<2>& from,
@@ -86,7 +88,8 @@ std::optional<LoopCertificate> certify_no_loop(CellAtHand& at_hand, int critical
       const Point<2> to{target.at[0] + beyond * (target.at[0] - from[0]),
                         target.at[1] + beyond * (target.at[1] - from[1])};
       if (side(line, to, partition.kernel()) == *inside) continue;
-      if (no_root_on_segment(partition.tiles()[region.curve], from, to, partition.kernel()))
+      TiledPolynomial& tiles = partition.tiles().about(region.curve, around(from, to));
+      if (no_root_on_segment(tiles, from, to, partition.kernel()))
         return LoopCertificate{critical_region, from, to};
       break;
     }

@@ -24,9 +24,15 @@ bool clear_of(TiledPolynomial& f, const Line& line, const Interval& vertex, Line
 
 }  // namespace
 
-Partition::Partition(const std::vector<FilteredPolynomial<2>>& curves,
-                     std::vector<TiledPolynomial>& tiles, Kernel& kernel)
-    : curves_(curves), tiles_(tiles), kernel_(kernel) {}
+Partition::Partition(const std::vector<FilteredPolynomial<2>>& curves, NestedTiles& tiles,
+                     Features& features, Kernel& kernel)
+    : crossings(features.crossings),
+      critical_regions(features.critical_regions),
+      zones(features.zones),
+      saddles(features.saddles),
+      curves_(curves),
+      tiles_(tiles),
+      kernel_(kernel) {}
 
 bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
   // Refine neighbours until all intervals are disjoint.
@@ -40,19 +46,44 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
       if (a.root.hi < b.root.lo) continue;
       if (a.root.hi == b.root.lo && a.curve == b.curve) continue;
       disjoint = false;
-      for (Cut::Root* r : {&a, &b})
-        if (!refine_on_line(tiles_[r->curve], line, &r->root, kernel_)) return false;
+      for (Cut::Root* r : {&a, &b}) {
+        TiledPolynomial& f = tiles_.about(r->curve, box_on_line(line, r->root.lo, r->root.hi));
+        if (!refine_on_line(f, line, &r->root, kernel_)) return false;
+      }
     }
     if (disjoint) return true;
   }
   return false;
 }
 
+/// Appends the roots to those found, each part of the line with the tiles that see it best.
+bool Partition::isolate_in_parts(int curve, const Line& line, double from, double to,
+                                 int max_nodes) {
+  const auto isolate = [&](double lo, double hi) {
+    TiledPolynomial& f = tiles_.about(curve, box_on_line(line, lo, hi));
+    return isolate_on_line(f, line, lo, hi, max_nodes, kernel_, &found_);
+  };
+  stops_.clear();
+  tiles_.append_stops(curve, line, from, to, &stops_);
+  if (stops_.empty()) return isolate(from, to);
+  stops_.push_back(to);
+  double last = from;
+  bool proved = true;
+  for (std::size_t k = 0; proved && k < stops_.size(); ++k) {
+    proved = isolate(last, stops_[k]);
+    last = stops_[k];
+  }
+  if (proved) return true;
+  // The curve may pass through a stop.
+  found_.clear();
+  return isolate(from, to);
+}
+
 bool Partition::isolate_between(int curve, const Line& line, const Interval& from,
                                 const Interval& to, int max_nodes, std::vector<Cut::Root>* roots) {
-  TiledPolynomial& f = tiles_[curve];
   found_.clear();
-  if (!isolate_on_line(f, line, from.lo, to.hi, max_nodes, kernel_, &found_)) return false;
+  if (!isolate_in_parts(curve, line, from.lo, to.hi, max_nodes)) return false;
+  TiledPolynomial& f = tiles_.about(curve, box_on_line(line, from.lo, to.hi));
   for (LineRoot& root : found_) {
     // The vertices must be free of the curve: no root in their enclosures.
     if (!clear_of(f, line, from, &root, kernel_) || !clear_of(f, line, to, &root, kernel_) ||
@@ -128,6 +159,57 @@ void Partition::fill(OpenCell* cell) {
       cell->saddles.push_back(static_cast<int>(k));
 }
 
+OpenCell Partition::begin(const Partition& whole, const OpenCell& cell) {
+  OpenCell first(&memory_);
+  first = cell;
+  first.parent = first.sketches = -1;
+  int next = 0;
+  for (int k = 0; k < first.size(); ++k) {
+    OpenCell::Edge& edge = first.edges[k];
+    lines.push_back(whole.lines[edge.line]);
+    edge.line = k;
+    for (; next < edge.end; ++next) {
+      const int id = cell.word[next];
+      line_crossings.push_back(whole.line_crossings[id]);
+      line_crossings.back().line = k;
+      spots_.push_back(whole.spots_[id]);
+      first.word[next] = next;
+    }
+  }
+  return first;
+}
+
+Partition::Numbers Partition::join(const OpenCell& cell, const Partition& part, int first_cell) {
+  Numbers numbers;
+  for (const OpenCell::Edge& edge : cell.edges) numbers.lines.push_back(edge.line);
+  for (std::size_t k = cell.edges.size(); k < part.lines.size(); ++k) {
+    numbers.lines.push_back(static_cast<int>(lines.size()));
+    lines.push_back(part.lines[k]);
+  }
+  numbers.line_crossings.assign(cell.word.begin(), cell.word.end());
+  for (std::size_t k = 0; k < cell.word.size(); ++k) {
+    LineCrossing& c = line_crossings[cell.word[k]];
+    c.lo = std::max(c.lo, part.line_crossings[k].lo);
+    c.hi = std::min(c.hi, part.line_crossings[k].hi);
+  }
+  for (std::size_t k = cell.word.size(); k < part.line_crossings.size(); ++k) {
+    numbers.line_crossings.push_back(static_cast<int>(line_crossings.size()));
+    line_crossings.push_back(part.line_crossings[k]);
+    line_crossings.back().line = numbers.lines[line_crossings.back().line];
+    spots_.push_back(part.spots_[k]);
+  }
+  const int first_cut = static_cast<int>(history.size());
+  const auto child = [&](int c) { return c >= 0 ? c + first_cut : ~(~c + first_cell); };
+  if (cell.parent >= 0) {
+    Split& above = history[cell.parent];
+    (cell.positive ? above.positive : above.negative) = child(part.history.empty() ? ~0 : 0);
+  }
+  for (const Split& split : part.history)
+    history.push_back({numbers.lines[split.line], child(split.negative), child(split.positive)});
+  lines_tried += part.lines_tried;
+  return numbers;
+}
+
 std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
                                                const Interval& parameter) {
   const OpenCell::Edge& e = cell.edges[edge];
@@ -138,7 +220,8 @@ std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
   for (int i = cell.begin_of(edge); i < e.end; ++i) {
     LineCrossing& c = line_crossings[cell.word[i]];
     LineRoot root{c.lo, c.hi, spots_[cell.word[i]].parameter};
-    if (!clear_of(tiles_[c.curve], line, parameter, &root, kernel_)) return std::nullopt;
+    TiledPolynomial& f = tiles_.about(c.curve, box_on_line(line, c.lo, c.hi));
+    if (!clear_of(f, line, parameter, &root, kernel_)) return std::nullopt;
     c.lo = root.lo;
     c.hi = root.hi;
     if ((root.hi < parameter.lo) == ascending) ++before;
@@ -154,7 +237,7 @@ const Partition::Spot& Partition::spot(int line_crossing) {
   const int p = parameter_axis(line), q = 1 - p;
   spot.at[p] = spot.parameter;
   spot.at[q] = -(line.normal[p] * spot.parameter + line.offset) / line.normal[q];
-  const auto [value, g] = value_and_gradient(tiles_[c.curve], spot.at);
+  const auto [value, g] = value_and_gradient(tiles_.about(c.curve, {spot.at, spot.at}), spot.at);
   const double length = std::sqrt(g[0] * g[0] + g[1] * g[1]);
   if (length > 0) spot.normal = {g[0] / length, g[1] / length};
   spot.known = true;
@@ -167,6 +250,18 @@ ValueAndGradient value_and_gradient(TiledPolynomial& f, const Point<2>& at) {
   const auto [value, slope_0, slope_1] = value_and_gradient(
       tile, Point<2>{(at[0] - tile.center[0]) * scale[0], (at[1] - tile.center[1]) * scale[1]});
   return {value, {slope_0 * scale[0], slope_1 * scale[1]}};
+}
+
+Box<2> box_on_line(const Line& line, double from, double to) {
+  const int p = parameter_axis(line), q = 1 - p;
+  Box<2> box;
+  box.lo[p] = from;
+  box.hi[p] = to;
+  const double slope = -line.normal[p] / line.normal[q], base = -line.offset / line.normal[q],
+               a = base + slope * from, b = base + slope * to;
+  box.lo[q] = std::min(a, b);
+  box.hi[q] = std::max(a, b);
+  return box;
 }
 
 Box<2> bounds_of(const OpenCell& cell) {

@@ -6,7 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "2d/nested_tiles.hpp"
 #include "2d/places.hpp"
+#include "2d/recycled_memory.hpp"
 #include "common/filtered_polynomial.hpp"
 #include "common/line_roots.hpp"
 #include "common/segments.hpp"
@@ -87,23 +89,32 @@ struct Saddle {
   double reach = 0;  ///< about how far the branches are
 };
 
-class Partition {
- public:
-  /// `tiles`: the curves' polynomials over a box that contains the polygon to be opened.
-  Partition(const std::vector<FilteredPolynomial<2>>& curves, std::vector<TiledPolynomial>& tiles,
-            Kernel& kernel);
-
-  std::vector<Line> lines;
-  std::vector<LineCrossing> line_crossings;
+/// What is known of the curves before the first cut. Cells name its entries. Partitions of
+/// different parts of a region share it; of a crossing they change the cell that holds it.
+struct Features {
   std::vector<Crossing> crossings;
   std::vector<CriticalRegion> critical_regions;
   std::vector<Zone> zones;
   std::vector<Saddle> saddles;  ///< those with the nearest branches first
+};
+
+class Partition {
+ public:
+  /// `tiles`: the curves' polynomials over a box that contains the polygon to be opened.
+  Partition(const std::vector<FilteredPolynomial<2>>& curves, NestedTiles& tiles,
+            Features& features, Kernel& kernel);
+
+  std::vector<Line> lines;
+  std::vector<LineCrossing> line_crossings;
+  std::vector<Crossing>& crossings;
+  std::vector<CriticalRegion>& critical_regions;
+  std::vector<Zone>& zones;
+  std::vector<Saddle>& saddles;
   std::vector<Split> history;
   std::int64_t lines_tried = 0;
 
   const std::vector<FilteredPolynomial<2>>& curves() const { return curves_; }
-  std::vector<TiledPolynomial>& tiles() { return tiles_; }
+  NestedTiles& tiles() { return tiles_; }
   Kernel& kernel() { return kernel_; }
   OpenCell::Memory* memory() { return &memory_; }
 
@@ -112,6 +123,18 @@ class Partition {
   std::optional<OpenCell> open(const std::vector<Line>& sides);
   /// Gives the opened cell the crossings, critical regions, zones and saddles inside it.
   void fill(OpenCell* cell);
+
+  /// Begins with an open cell of another partition, as the whole of this one: its edges' lines and
+  /// the crossings of its word come first here, in their order.
+  OpenCell begin(const Partition& whole, const OpenCell& cell);
+  /// For each line and line crossing of a partition what it is in another.
+  struct Numbers {
+    std::vector<int> lines, line_crossings;
+  };
+  /// Takes over the lines, line crossings and cuts of a partition that was begun with this one's
+  /// open cell, half of another, and whose cells will have the numbers from `first_cell` on. Of an
+  /// interval that both have refined, the common part.
+  Numbers join(const OpenCell& cell, const Partition& part, int first_cell);
 
   /// Isolates the roots of a curve between two vertices of a line, on both of which it must not
   /// vanish, and appends them to `roots`; false if something is not proved.
@@ -135,16 +158,18 @@ class Partition {
   const Spot& spot(int line_crossing);
 
  private:
+  bool isolate_in_parts(int curve, const Line& line, double from, double to, int max_nodes);
   bool order_on_line(const Line& line, std::vector<Cut::Root>* roots);
   void add_line_crossings(int line, const std::vector<Cut::Root>& roots);
   void build_child(const OpenCell& cell, const Cut& cut, int first_root, OpenCell* child);
   std::optional<Sign> side_of(const CriticalRegion& region, const Line& line);
 
   const std::vector<FilteredPolynomial<2>>& curves_;
-  std::vector<TiledPolynomial>& tiles_;
+  NestedTiles& tiles_;
   Kernel& kernel_;
-  std::pmr::monotonic_buffer_resource memory_;  ///< of the cells
+  RecycledMemory memory_;  ///< of the cells
   std::vector<LineRoot> found_;
+  std::vector<double> stops_;
   std::vector<Spot> spots_;  ///< of every line crossing
 };
 
@@ -154,6 +179,9 @@ struct ValueAndGradient {
   Point<2> gradient;
 };
 ValueAndGradient value_and_gradient(TiledPolynomial& f, const Point<2>& at);
+
+/// About the smallest box around the part of a line between two parameters.
+Box<2> box_on_line(const Line& line, double from, double to);
 
 /// The smallest box around the centres of a cell's vertices.
 Box<2> bounds_of(const OpenCell& cell);

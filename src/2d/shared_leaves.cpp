@@ -18,8 +18,10 @@ namespace {
 constexpr std::size_t kFew = 2;
 /// So many halvings in a row that took no curve away: twice across either axis.
 constexpr int kInVain = 4;
-constexpr int kDeepest = 20;  // levels of halvings
-constexpr int kMostBoxes = 200000;
+/// With more curves a halving counts as long as it takes some away from the other half.
+constexpr std::size_t kSeveral = 8;
+constexpr int kDeepest = 40;  // levels of halvings
+constexpr double kMostBoxes = 200000;
 /// A part with both widths above this fraction of the whole's is treated as the whole.
 constexpr double kHardlySmaller = 0.6;
 
@@ -32,7 +34,7 @@ struct Alive {
 
 class SharedSubdivision {
  public:
-  SharedSubdivision(std::vector<TiledPolynomial>& curves, const std::vector<Line>& half_planes,
+  SharedSubdivision(NestedTiles& curves, const std::vector<Line>& half_planes,
                     const std::function<bool()>& stop, Kernel& kernel)
       : curves_(curves),
         half_planes_(half_planes),
@@ -41,25 +43,38 @@ class SharedSubdivision {
         lower_(kDeepest + 1) {}
 
   SharedLeaves run() {
-    result_.cover.root = curves_.front().box();
-    std::vector<Alive> all(curves_.size());
-    for (std::size_t c = 0; c < curves_.size(); ++c) all[c].curve = static_cast<int>(c);
-    visit(result_.cover.root, 0, 0, false, all);
+    result_.cover.root = curves_.box();
+    Part whole{result_.cover.root, false, {}};
+    whole.alive.resize(static_cast<std::size_t>(curves_.size()));
+    for (std::size_t c = 0; c < whole.alive.size(); ++c) whole.alive[c].curve = static_cast<int>(c);
+    look_at(0, &whole);
+    visit(0, 0, kMostBoxes, whole);
     return std::move(result_);
   }
 
  private:
-  void visit(const Box<2>& box, int level, int in_vain, bool inside, std::vector<Alive>& alive);
+  /// A box, whether it is known to lie in all half planes, and the curves that may have zeros
+  /// there.
+  struct Part {
+    Box<2> box;
+    bool inside = false;
+    std::vector<Alive> alive;
+  };
+  /// What looking at a part has brought.
+  enum class Look { Outside, Gained, Nothing };
+
+  Look look_at(int level, Part* part);
+  void visit(int level, int in_vain, double budget, Part& part);
   bool provide_patch(const Box<2>& box, int level, Alive* alive);
 
-  std::vector<TiledPolynomial>& curves_;
+  NestedTiles& curves_;
   const std::vector<Line>& half_planes_;
   const std::function<bool()>& stop_;
   Kernel& kernel_;
   SharedLeaves result_;
   bool stopped_ = false;
-  /// The curves of the lower halves, by level. (Those of an upper half take their parent's place.)
-  std::vector<std::vector<Alive>> lower_;
+  /// The lower halves, by level. (An upper half takes its parent's place.)
+  std::vector<Part> lower_;
 };
 
 /// Makes the patch where it is missing or has become coarse. False if there is none, or none that
@@ -68,7 +83,7 @@ bool SharedSubdivision::provide_patch(const Box<2>& box, int level, Alive* alive
   const auto coarse = [&] { return !(alive->patch.radius <= 0x1p-4 * alive->patch.magnitude()); };
   const bool known = alive->expanded_at >= 0;
   if (known && (alive->expanded_at + 2 > level || !coarse())) return !coarse();
-  TiledPolynomial& f = curves_[static_cast<std::size_t>(alive->curve)];
+  TiledPolynomial& f = curves_.about(alive->curve, box);
   const Tile& tile = f.at(box.center());
   for (int axis = 0; axis < 2; ++axis)
     if (0.5 * box.width(axis) > 1.01 * tile.half[axis]) return false;
@@ -77,27 +92,19 @@ bool SharedSubdivision::provide_patch(const Box<2>& box, int level, Alive* alive
   return !coarse();
 }
 
-void SharedSubdivision::visit(const Box<2>& box, int level, int in_vain, bool inside,
-                              std::vector<Alive>& alive) {
-  SharedCover& cover = result_.cover;
-  if (result_.visited++ % 64 == 0 && !stopped_) stopped_ = stop_ && stop_();
-  if (stopped_) {
-    cover.tokens.push_back(cover::kUnresolved);
-    result_.unresolved.push_back(box);
-    return;
+/// Takes away the curves that are proved to have no zero in the part. A patch that tells little yet
+/// counts as a gain: those of smaller boxes may tell more.
+SharedSubdivision::Look SharedSubdivision::look_at(int level, Part* part) {
+  if (!part->inside) {
+    const std::optional<bool> where = lies_inside(part->box, half_planes_);
+    if (where == false) return Look::Outside;
+    part->inside = where.has_value();
   }
-  if (!inside) {
-    const std::optional<bool> where = lies_inside(box, half_planes_);
-    if (where == false) {
-      cover.tokens.push_back(cover::kOutside);
-      return;
-    }
-    inside = where.has_value();
-  }
+  std::vector<Alive>& alive = part->alive;
   std::size_t left = 0;
   bool sharp = true;
   for (std::size_t k = 0; k < alive.size(); ++k) {
-    const bool tells = provide_patch(box, level, &alive[k]);
+    const bool tells = provide_patch(part->box, level, &alive[k]);
     if (alive[k].expanded_at >= 0 && alive[k].patch.sign()) {
       kernel_.count(Kernel::kDoubleBits);
       continue;
@@ -106,38 +113,72 @@ void SharedSubdivision::visit(const Box<2>& box, int level, int in_vain, bool in
     if (left < k) alive[left] = alive[k];
     ++left;
   }
-  in_vain = left < alive.size() || !sharp ? 0 : in_vain + 1;
+  const bool gained = left < alive.size() || !sharp;
   alive.resize(left);
-  Box<2> lower, upper;
+  return gained ? Look::Gained : Look::Nothing;
+}
+
+/// Subdivides a part that has been looked at. (In a wide region most curves pass the middle, and
+/// what leads there are boxes that all of them meet beside others that few do: a halving that takes
+/// curves from one half is not in vain for the other, as long as they are several.)
+void SharedSubdivision::visit(int level, int in_vain, double budget, Part& part) {
+  SharedCover& cover = result_.cover;
+  if (result_.visited++ % 64 == 0 && !stopped_) stopped_ = stop_ && stop_();
+  if (stopped_) {
+    cover.tokens.push_back(cover::kUnresolved);
+    result_.unresolved.push_back(part.box);
+    return;
+  }
+  Part& lower = lower_[static_cast<std::size_t>(level)];
+  Part& upper = part;
+  const Box<2> box = part.box;
   const int axis = cover::kSplitX - wider_axis(box);
-  if (alive.size() <= kFew || in_vain >= kInVain || level == kDeepest ||
-      result_.visited >= kMostBoxes || !halve_box(box, axis, &lower, &upper)) {
+  if (part.alive.size() <= kFew || in_vain >= kInVain || level == kDeepest || budget < 2 ||
+      !halve_box(box, axis, &lower.box, &upper.box)) {
     cover.tokens.push_back(static_cast<int>(cover.alive.size()));
     auto& names = cover.alive.emplace_back();
-    for (const Alive& a : alive) names.push_back(a.curve);
+    names.reserve(part.alive.size());
+    for (const Alive& a : part.alive) names.push_back(a.curve);
     result_.boxes.push_back(box);
     return;
   }
   cover.tokens.push_back(cover::kSplitX - axis);
-  std::vector<Alive>& of_lower = lower_[static_cast<std::size_t>(level)];
-  of_lower.resize(alive.size());
-  for (std::size_t k = 0; k < alive.size(); ++k) {
-    of_lower[k].curve = alive[k].curve;
-    of_lower[k].expanded_at = alive[k].expanded_at;
-    if (alive[k].expanded_at >= 0)
-      halve(alive[k].patch, axis, false, &of_lower[k].patch, &alive[k].patch);
+  lower.inside = upper.inside;
+  lower.alive.resize(upper.alive.size());
+  for (std::size_t k = 0; k < upper.alive.size(); ++k) {
+    Alive &below = lower.alive[k], &above = upper.alive[k];
+    below.curve = above.curve;
+    below.expanded_at = above.expanded_at;
+    if (above.expanded_at >= 0) halve(above.patch, axis, false, &below.patch, &above.patch);
   }
-  visit(lower, level + 1, in_vain, inside, of_lower);
-  visit(upper, level + 1, in_vain, inside, alive);
+  const std::size_t before = upper.alive.size();
+  const std::array<Part*, 2> halves{&lower, &upper};
+  const std::array<Look, 2> looks{look_at(level + 1, &lower), look_at(level + 1, &upper)};
+  const bool several = before > kSeveral;
+  // Either half gets a share of the budget for its pairs of curves.
+  const auto pairs = [](const Part& half, Look look) {
+    const auto curves = static_cast<double>(half.alive.size());
+    return look == Look::Outside || half.alive.size() <= kFew ? 0 : curves * curves;
+  };
+  const std::array<double, 2> weights{pairs(lower, looks[0]), pairs(upper, looks[1])};
+  const double share = (budget - 2) / std::max(1.0, weights[0] + weights[1]);
+  for (int k = 0; k < 2; ++k) {
+    const bool gained = looks[k] == Look::Gained || (several && looks[1 - k] == Look::Gained);
+    if (looks[k] == Look::Outside) {
+      ++result_.visited;
+      cover.tokens.push_back(cover::kOutside);
+      continue;
+    }
+    visit(level + 1, gained ? 0 : in_vain + 1, share * weights[k], *halves[k]);
+  }
 }
 
 constexpr Box<2> kNothing{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
 
 }  // namespace
 
-SharedLeaves share_leaves(std::vector<TiledPolynomial>& curves,
-                          const std::vector<Line>& half_planes, const std::function<bool()>& stop,
-                          Kernel& kernel) {
+SharedLeaves share_leaves(NestedTiles& curves, const std::vector<Line>& half_planes,
+                          const std::function<bool()>& stop, Kernel& kernel) {
   return SharedSubdivision(curves, half_planes, stop, kernel).run();
 }
 

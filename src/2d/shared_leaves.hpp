@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "2d/nested_tiles.hpp"
 #include "common/kernel.hpp"
-#include "common/tile.hpp"
 #include "encase/encasement.hpp"
 
 namespace encase {
@@ -23,9 +23,8 @@ struct SharedLeaves {
 /// leaf or halving takes none away. A curve is dropped where it is proved to have no zero; boxes
 /// outside one of the half planes (positive side) are left out. `stop`, asked now and then, ends
 /// it: what is open then stays unresolved. Cost: linear in the curves alive in the boxes visited.
-SharedLeaves share_leaves(std::vector<TiledPolynomial>& curves,
-                          const std::vector<Line>& half_planes, const std::function<bool()>& stop,
-                          Kernel& kernel);
+SharedLeaves share_leaves(NestedTiles& curves, const std::vector<Line>& half_planes,
+                          const std::function<bool()>& stop, Kernel& kernel);
 
 /// Two curves that are alive in a common leaf, and the hull of all such leaves.
 struct MeetingPair {

@@ -9,13 +9,16 @@
 namespace encase {
 namespace {
 
-constexpr double kMiddle = 0.35;     // where the middle of the projections begins
-constexpr int kMaxBisected = 6;      // crossings up to which pairs of them are bisected
-constexpr int kBisectedPairs = 3;    // of crossings
-constexpr int kSaddles = 4;          // of a curve
-constexpr int kBranchPairs = 6;      // of boundary points of a curve, on different branches
-constexpr int kCurvePairs = 4;       // of neighbours on the boundary, of different curves
-constexpr int kApproachedPairs = 8;  // of boundary points
+constexpr double kMiddle = 0.35;       // where the middle of the projections begins
+constexpr int kMostInMiddle = 1500;    // projections
+constexpr int kMaxBisected = 6;        // crossings up to which pairs of them are bisected
+constexpr int kBisectedPairs = 3;      // of crossings
+constexpr int kSaddles = 4;            // of a curve
+constexpr int kBranchPairs = 6;        // of boundary points of a curve, on different branches
+constexpr int kSplitCurves = 4;        // curves the branches of which are told apart
+constexpr int kCurvePairs = 4;         // of neighbours on the boundary, of different curves
+constexpr int kApproachedPairs = 8;    // of boundary points
+constexpr int kMostApproached = 2000;  // points, of all pairs of which the closest are taken
 constexpr int kApproachSteps = 2;
 constexpr int kProjections = 2;           // onto the curve, in each
 constexpr double kEnoughWhenFast = -0.5;  // expected cells that a cut has to save
@@ -103,13 +106,18 @@ void SplittingLines::propose_between_crossings() {
     return partition_.crossings[crossings[i]].point;
   };
   // The largest gap in the middle of the projections, in four directions.
-  const int from = static_cast<int>(kMiddle * (n - 1));
-  const int to = std::max(from + 1, static_cast<int>(std::ceil((1 - kMiddle) * (n - 1))));
+  const double outside = std::max(kMiddle, 0.5 - 0.5 * kMostInMiddle / n);
+  const int from = static_cast<int>(outside * (n - 1));
+  const int to = std::max(from + 1, static_cast<int>(std::ceil((1 - outside) * (n - 1))));
   for (const Point<2>& d :
        {Point<2>{1, 0}, Point<2>{0, 1}, Point<2>{0.7071, 0.7072}, Point<2>{0.7072, -0.7071}}) {
     projections_.clear();
     for (int i = 0; i < n; ++i) projections_.push_back(dot(point(i), d));
-    std::sort(projections_.begin(), projections_.end());
+    // Only the middle has to be in order.
+    const auto first = projections_.begin() + from, last = projections_.begin() + to;
+    std::nth_element(projections_.begin(), first, projections_.end());
+    std::nth_element(first, last, projections_.end());
+    std::sort(first, last);
     int best = from;
     for (int i = from; i < to; ++i)
       if (projections_[i + 1] - projections_[i] > projections_[best + 1] - projections_[best])
@@ -142,8 +150,10 @@ void SplittingLines::propose_through_saddles(int curve) {
 void SplittingLines::propose_between_branches() {
   const auto& points = cell_.points();
   const int n = static_cast<int>(points.size());
+  int left = kSplitCurves;
   for (const auto& presence : cell_.curves()) {
     if (presence.ends < 4) continue;
+    if (left-- == 0) return;
     const int c = presence.curve;
     propose_through_saddles(c);
     if (is_good_enough()) return;
@@ -318,6 +328,7 @@ void SplittingLines::approach() {
 void SplittingLines::propose_closest_approach() {
   const auto& points = cell_.points();
   const int n = static_cast<int>(points.size());
+  if (n > kMostApproached) return;
   pairs_.clear();
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
@@ -370,7 +381,7 @@ void SplittingLines::propose_refinement() {
   if (longest.a < 0) return;
   const Point<2> a = points[longest.a].at, b = points[longest.b].at, middle_point = halfway(a, b);
   const Point<2> along = unit(minus(b, a)), across{-along[1], along[0]};
-  TiledPolynomial& f = partition_.tiles()[points[longest.a].curve];
+  TiledPolynomial& f = partition_.tiles().about(points[longest.a].curve, cell_.bounds());
   const double length = std::sqrt(longest.gap);
   const auto at = [&](double t) {
     return Point<2>{middle_point[0] + t * across[0], middle_point[1] + t * across[1]};

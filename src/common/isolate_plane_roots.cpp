@@ -424,11 +424,11 @@ std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box
 
 }  // namespace
 
-RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
+RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g, const Box<2>& root,
                                const std::vector<Line>& half_planes,
                                const SubdivisionLimits& limits, Kernel& kernel) {
   RootIsolation<2> result;
-  result.root_box = f.box();
+  result.root_box = root;
   PlaneRoots roots(f, g, kernel);
   const auto visit = [&](PlaneSubdivision<2>::Node& node) {
     if (const auto token = roots.settle(node, &node.part)) return *token;
@@ -456,7 +456,7 @@ RootIsolation<2> isolate_roots<2>(const System<2>& system, const Box<2>& box,
                                   const SubdivisionLimits& limits, Kernel& kernel) {
   const Box<2> root = subdivision_root(box);
   TiledPolynomial f(*system[0], root, kernel), g(*system[1], root, kernel);
-  return isolate_roots(f, g, half_planes, limits, kernel);
+  return isolate_roots(f, g, root, half_planes, limits, kernel);
 }
 
 }  // namespace encase

@@ -42,8 +42,8 @@ RootIsolation<2> isolate_roots<2>(const System<2>& system, const Box<2>& box,
                                   const std::vector<Line>& half_planes,
                                   const SubdivisionLimits& limits, Kernel& kernel);
 
-/// The same in the plane, for polynomials with tiles that cover one common box.
-RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g,
+/// The same in the plane, for polynomials with tiles that cover `root`, which is subdivided.
+RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g, const Box<2>& root,
                                const std::vector<Line>& half_planes,
                                const SubdivisionLimits& limits, Kernel& kernel);
 

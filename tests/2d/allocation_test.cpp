@@ -92,8 +92,8 @@ struct Pair {
 /// Constants are made when they are first asked for; those are not to be counted.
 void make_constants() {
   Pair pair(20);
-  isolate_roots(pair.f, pair.g, {}, SubdivisionLimits{}, pair.kernel);
-  critical_regions(pair.f, 0, {}, SubdivisionLimits{}, pair.kernel);
+  isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
+  critical_regions(pair.f, 0, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
 }
 
 TEST(Allocations, OfIsolatingRootsAreBoundedByTilesAndRoots) {
@@ -102,7 +102,8 @@ TEST(Allocations, OfIsolatingRootsAreBoundedByTilesAndRoots) {
   for (const int degree : {6, 10, 14, 20}) {
     Pair pair(degree);
     const long before = allocations;
-    const auto roots = isolate_roots(pair.f, pair.g, {}, SubdivisionLimits{}, pair.kernel);
+    const auto roots =
+        isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
     const long during = allocations - before;
     EXPECT_LE(during, 2 * (pair.kernel.expansions + static_cast<long>(roots.roots.size()) + 20))
         << "degree " << degree;
@@ -120,7 +121,8 @@ TEST(Allocations, OfCriticalRegionsAreBoundedByTilesAndRegions) {
   for (const int degree : {6, 10, 14, 20}) {
     Pair pair(degree);
     const long before = allocations;
-    const auto found = critical_regions(pair.f, 0, {}, SubdivisionLimits{}, pair.kernel);
+    const auto found =
+        critical_regions(pair.f, 0, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
     const long during = allocations - before;
     long kept = 0;
     for (const auto& region : found.regions) kept += 1 + static_cast<long>(region.boxes.size());
@@ -136,9 +138,10 @@ TEST(Allocations, OfCriticalRegionsAreBoundedByTilesAndRegions) {
 TEST(Allocations, OfMoreBoxesAreNoMore) {
   // What was made for the first time is there for the second: only lists grow.
   Pair pair(12);
-  isolate_roots(pair.f, pair.g, {}, SubdivisionLimits{}, pair.kernel);
+  isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
   const long before = allocations;
-  const auto roots = isolate_roots(pair.f, pair.g, {}, SubdivisionLimits{}, pair.kernel);
+  const auto roots =
+      isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
   EXPECT_LT(allocations - before, 60);
   EXPECT_GT(roots.boxes, 300);
 }

@@ -62,7 +62,9 @@ TEST(Partition, DoesNotOpenWhereACurvePassesThroughACorner) {
   for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
   std::vector<TiledPolynomial> tiles;
   for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
-  Partition partition(curves, tiles, kernel);
+  NestedTiles nested(curves, tiles, {0, 0}, false, kernel);
+  Features features;
+  Partition partition(curves, nested, features, kernel);
   EXPECT_FALSE(partition.open(sides).has_value());
   // A slightly larger polygon moves the corners off the curve, and contains the square.
   const auto larger = enlarged(square, 1);
@@ -85,7 +87,9 @@ TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
   for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
   std::vector<TiledPolynomial> tiles;
   for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
-  Partition partition(curves, tiles, kernel);
+  NestedTiles nested(curves, tiles, {0, 0}, false, kernel);
+  Features features;
+  Partition partition(curves, nested, features, kernel);
   const auto cell = partition.open(sides);
   ASSERT_TRUE(cell.has_value());
   const auto line = [](double a, double b, double c) {
@@ -113,6 +117,71 @@ TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
   EXPECT_EQ(below.word.size(), 2u);
   EXPECT_EQ(above.word.size(), 2u);
   EXPECT_EQ(partition.history.size(), 1u);
+}
+
+TEST(Partition, JoinsWhatAPartMadeOfAHalf) {
+  Kernel kernel;
+  std::vector<FilteredPolynomial<2>> curves;
+  curves.emplace_back(Polynomial<2>::variable(0) - Polynomial<2>::constant(Rational(1, 3)));
+  const Region square = make_region(-1, 1, -1, 1).value();
+  std::vector<Line> sides;
+  for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
+  std::vector<TiledPolynomial> tiles;
+  for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
+  NestedTiles nested(curves, tiles, {0, 0}, false, kernel);
+  Features features;
+  Partition whole(curves, nested, features, kernel);
+  const auto cell = whole.open(sides);
+  ASSERT_TRUE(cell.has_value());
+  const auto cut = [](Partition& partition, const OpenCell& from, double height, OpenCell* below,
+                      OpenCell* above) {
+    Line line;
+    line.normal = {0, 1};
+    line.offset = -height;
+    CellAtHand at_hand(partition);
+    at_hand.take(from);
+    at_hand.propose(line);
+    return at_hand.prove_best() && partition.apply(from, &at_hand.cut(), below, above);
+  };
+  OpenCell below, above;
+  ASSERT_TRUE(cut(whole, *cell, 0.25, &below, &above));
+
+  Partition part(curves, nested, features, kernel);
+  const OpenCell lower = part.begin(whole, below);
+  ASSERT_EQ(part.lines.size(), 4u);
+  ASSERT_EQ(part.line_crossings.size(), 2u);
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(part.lines[lower.edges[k].line].offset, whole.lines[below.edges[k].line].offset);
+  // Either refines the interval of the crossing on the line between them.
+  const int shared = below.edges[2].line == 4 ? 1 : 0;
+  const int id = below.word[shared];
+  ASSERT_EQ(whole.line_crossings[id].line, 4);
+  LineCrossing &ours = whole.line_crossings[id], &theirs = part.line_crossings[shared];
+  ours.lo = 0.25, ours.hi = 0.375;
+  theirs.lo = 0.3125, theirs.hi = 0.5;
+  OpenCell lowest, middle;
+  ASSERT_TRUE(cut(part, lower, -0.5, &lowest, &middle));
+  ASSERT_EQ(part.line_crossings.size(), 3u);
+
+  const auto numbers = whole.join(below, part, 7);
+  EXPECT_EQ(numbers.lines.back(), 5);
+  EXPECT_EQ(whole.lines.size(), 6u);
+  EXPECT_EQ(whole.lines[5].offset, 0.5);
+  EXPECT_EQ(whole.line_crossings[id].lo, 0.3125);
+  EXPECT_EQ(whole.line_crossings[id].hi, 0.375);
+  EXPECT_EQ(whole.line_crossings[id].line, 4);
+  ASSERT_EQ(whole.line_crossings.size(), 4u);
+  EXPECT_EQ(whole.line_crossings[3].line, 5);
+  EXPECT_EQ(numbers.line_crossings.back(), 3);
+  ASSERT_EQ(whole.history.size(), 2u);
+  EXPECT_EQ(whole.history[0].negative, 1);
+  EXPECT_EQ(whole.history[1].line, 5);
+  // A part that was not cut is one cell.
+  Partition upper(curves, nested, features, kernel);
+  upper.begin(whole, above);
+  whole.join(above, upper, 9);
+  EXPECT_EQ(whole.history[0].positive, ~9);
+  EXPECT_EQ(whole.history.size(), 2u);
 }
 
 }  // namespace

@@ -145,5 +145,17 @@ TEST_F(AtomicDirectoryTest, LeavesNothingWithoutCommit) {
   EXPECT_FALSE(AtomicDirectory::create(path("f")).ok());
 }
 
+TEST_F(AtomicDirectoryTest, LeavesNothingThatIsAbandoned) {
+  const auto end = [&] {
+    auto directory = AtomicDirectory::create(path("d"));
+    const bool written =
+        directory.ok() && !write_file(directory.value().temporary() + "/f", "x") && entries() == 1;
+    abandon_writes();
+    _exit(written ? 7 : 8);
+  };
+  EXPECT_EXIT(end(), testing::ExitedWithCode(7), "");
+  EXPECT_EQ(entries(), 0);
+}
+
 }  // namespace
 }  // namespace encase

@@ -15,7 +15,7 @@ import unittest
 from xml.etree import ElementTree
 
 BENCHMARK = None
-SHORT = ("--degrees", "2,3", "--seeds", "1", "--repeat", "1")
+SHORT = ("--degrees", "2,3", "--seeds", "1", "--repeat", "1", "--most-curves", "50")
 PAIRS_AND_SETTINGS = [(2, "default"), (2, "fast"), (3, "default"), (3, "fast")]
 
 
@@ -102,6 +102,31 @@ class ShortRun(unittest.TestCase):
             self.assertGreater(row["CGAL ms"], row["without coordinates ms"])
             self.assertGreater(row["ratio"], row["ratio without coordinates"])
 
+    def test_circles_cross_as_often_as_their_distances_say(self):
+        self.assertEqual([row["circles"] for row in self.tables["circles"]], [30])
+        for row in self.tables["circles"]:
+            self.assertEqual(row["certified"], "yes")
+            self.assertGreater(row["crossings"], 0)
+            self.assertEqual(row["crossings"], row["by distances"])
+            self.assertGreater(row["MB"], 0)
+
+    def test_arcs_have_the_nodes_and_edges_of_an_arrangement(self):
+        self.assertEqual([(row["degree"], row["curves"]) for row in self.tables["arcs"]],
+                         [(5, 50), (9, 20), (9, 40)])
+        for row in self.tables["arcs"]:
+            self.assertEqual(row["certified"], "yes")
+            self.assertGreater(row["nodes"], row["crossings"])
+            self.assertGreaterEqual(row["pairs met"], row["isolated"])
+
+    def test_arrangements_are_those_that_cgal_finds(self):
+        rows = self.tables["arrangements"]
+        self.assertEqual([row["curves"] for row in rows], [10, 20, 30, 40, 50])
+        for row in rows:
+            if "without CGAL" in self.machine:
+                self.assertNotIn("the same", row)
+            else:
+                self.assertEqual(row["the same"], "yes")
+
     def test_csv_holds_the_same_tables(self):
         with open(self.csv, newline="") as file:
             rows = list(csv.reader(file))
@@ -166,7 +191,8 @@ class Usage(unittest.TestCase):
     def test_help_names_the_options(self):
         run = benchmark("--help")
         self.assertEqual(run.returncode, 0)
-        for option in ("--degrees", "--seeds", "--cgal-degrees", "--repeat", "--csv", "--json"):
+        for option in ("--degrees", "--seeds", "--cgal-degrees", "--repeat",
+                       "--most-curves", "--csv", "--json"):
             self.assertIn(option, run.stdout)
 
     def test_a_file_that_cannot_be_written_is_an_error(self):

@@ -6,6 +6,7 @@ Usage: command_test.py PATH_TO_ENCASE [unittest arguments]
 
 import json
 import os
+import pty
 import re
 import signal
 import subprocess
@@ -121,7 +122,7 @@ class Usage(CommandTest):
 
     def test_values_out_of_range(self):
         for option, value in (("--max-cells", "0"), ("--max-seconds", "-1"), ("--max-bits", "12"),
-                              ("--start-bits", "1"), ("--threads", "0"), ("--perturb", "0"),
+                              ("--start-bits", "1"), ("--threads", "0"), ("--threads", "1000000"), ("--perturb", "0"),
                               ("--perturb", "nan"), ("--max-seconds", "nan"),
                               ("--perturb", "inf"), ("--perturb", "2")):
             with self.subTest(option):
@@ -533,30 +534,138 @@ class Random(CommandTest):
                      "degree")
 
 
+class Threads(CommandTest):
+    def test_any_number_gives_the_same_bytes(self):
+        text = encase("random", "--degree", "6", "--count", "8", "--seed", "2").stdout
+        def result(*options):
+            run = encase("curves", "-", "--json", "-", "-q", *options, stdin=text)
+            self.encased(run, 0)
+            return run.stdout
+        expected = result("--threads", "1")
+        for options in (("--threads", "2"), ("--threads", "8"), ()):
+            self.assertEqual(result(*options), expected, options)
+        path = self.path("r.json", expected)
+        self.assertEqual(encase("check", path, "--threads", "1").stdout,
+                         encase("check", path, "--threads", "3").stdout)
+
+    def test_verbose_says_how_many(self):
+        run = encase("curves", "-e", "x", "--region", "-1 1 -1 1", "-v", "--threads", "4")
+        self.encased(run, 0)
+        self.assertRegex(run.stdout, r"threads +(at most 4|1 \(4 allowed; built without oneTBB\))")
+
+
+def default_signals():
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
 class Interrupt(CommandTest):
+    def start(self, *arguments, **streams):
+        process = subprocess.Popen([ENCASE, *arguments], preexec_fn=default_signals, **streams)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def slow_curves(self):
+        """Some seconds of work, of which a part is waited for."""
+        return os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                            "../data/curves/L4_circles.curves")
+
+    def names(self):
+        return sorted(os.listdir(self.folder.name))
+
     def test_leaves_an_undecided_result_and_a_complete_file(self):
-        # Some seconds of work, of which a part is waited for.
-        curves = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../data/curves")
-        with open(os.path.join(curves, "L4_circles.curves")) as file:
-            text = file.read()
-        path = self.path("r.json")
-        process = subprocess.Popen([ENCASE, "curves", "-", "--json", path, "--max-seconds", "100"],
-                                   stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True)
-        try:
-            process.stdin.write(text)
-            process.stdin.close()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            path = self.path("r.json")
+            process = self.start("curves", self.slow_curves(), "-q", "--json", path)
             time.sleep(0.5)
-            process.send_signal(signal.SIGINT)
-            code = process.wait(timeout=30)
-        finally:
-            process.kill()
-            process.wait()
-            process.stdout.close()
-            process.stderr.close()
-        self.assertEqual(code, 4)
+            process.send_signal(number)
+            self.assertEqual(process.wait(timeout=60), 4)
+            self.assertEqual(self.names(), ["r.json"])
+            with open(path) as file:
+                self.assertEqual(json.load(file)["status"], "undecided")
+            os.remove(path)
+
+    def test_stops_several_threads(self):
+        curves = self.path("in.curves", encase("random", "--degree", "20", "--count", "30",
+                                               "--seed", "1").stdout)
+        path = self.path("r.json")
+        process = self.start("curves", curves, "-q", "--json", path, "--threads", "4")
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), 4)
+        self.assertEqual(self.names(), ["in.curves", "r.json"])
         with open(path) as file:
             self.assertEqual(json.load(file)["status"], "undecided")
+
+    def test_a_closed_terminal_ends_the_process_at_once(self):
+        process = self.start("curves", self.slow_curves(), "-q", "--json", self.path("r.json"))
+        time.sleep(0.5)
+        process.send_signal(signal.SIGHUP)
+        self.assertEqual(process.wait(timeout=10), 128 + signal.SIGHUP)
+        self.assertEqual(self.names(), [])
+
+    def test_while_files_are_written_leaves_only_complete_ones(self):
+        curves = self.path("in.curves", encase("random", "--degree", "6", "--count", "12",
+                                               "--seed", "1").stdout)
+        vtk = encase("curves", "-e", "x", "--region", "-1 1 -1 1", "-q", "-o", self.path("v"))
+        outputs = ["-o", self.path("out")] if vtk.returncode == 0 else []
+        before = self.names()
+        ended = 0
+        for _ in range(4):
+            process = self.start("curves", curves, "-q", "--json", self.path("r.json"), *outputs)
+            # The first temporary file or directory that is seen.
+            while process.poll() is None and not any(n.startswith(".") for n in self.names()):
+                time.sleep(0.0005)
+            process.send_signal(signal.SIGINT)
+            code = process.wait(timeout=60)
+            self.assertIn(code, (0, 128 + signal.SIGINT))
+            ended += code != 0
+            self.assertLessEqual(set(self.names()), {*before, "r.json", "out"})
+            if "r.json" in self.names():
+                with open(self.path("r.json")) as file:
+                    json.load(file)
+                os.remove(self.path("r.json"))
+        if outputs:
+            self.assertGreater(ended, 0)
+
+    def test_a_result_that_is_proved_again_can_be_left(self):
+        text = encase("random", "--degree", "8", "--count", "20", "--seed", "1").stdout
+        path = self.path("r.json")
+        encase("curves", "-", "-q", "--json", path, stdin=text)
+        process = self.start("check", path)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        # (The shell shows 130 for a process that the signal kills while it reads.)
+        self.assertIn(process.wait(timeout=60), (0, -signal.SIGINT, 128 + signal.SIGINT))
+
+
+class ProgressShown(CommandTest):
+    def on_terminal(self, *arguments):
+        """What goes to standard error where that is a terminal."""
+        master, slave = pty.openpty()
+        process = subprocess.Popen([ENCASE, *arguments], stdout=subprocess.DEVNULL, stderr=slave)
+        os.close(slave)
+        shown = b""
+        try:
+            while piece := os.read(master, 4096):
+                shown += piece
+        except OSError:  # the other end is closed
+            pass
+        os.close(master)
+        process.wait()
+        return shown.decode()
+
+    def test_for_work_of_more_than_a_second(self):
+        curves = os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                              "../data/curves/L4_circles.curves")
+        shown = self.on_terminal("curves", curves, "--max-seconds", "2")
+        self.assertRegex(shown, r"critical regions")
+        self.assertTrue(shown.endswith("\r\x1b[K"), repr(shown))
+        self.assertEqual(self.on_terminal("curves", curves, "--max-seconds", "2", "-q"), "")
+
+    def test_not_for_less(self):
+        self.assertEqual(self.on_terminal("curves", "-e", "x", "--region", "-1 1 -1 1"), "")
 
 
 if __name__ == "__main__":

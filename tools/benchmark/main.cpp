@@ -39,12 +39,15 @@ struct Section {
 const std::vector<Section>& sections() {
   static const std::vector<Section> list{
       {"memory", [](RandomPairs&, const Request& r) { return memory_table(r); }},
+      {"circles", [](RandomPairs&, const Request& r) { return circles_table(r); }},
       {"floors", floors_table},
       {"work", work_table},
       {"files", [](RandomPairs&, const Request& r) { return files_table(r); }},
       {"tangencies", [](RandomPairs&, const Request& r) { return near_tangency_table(r); }},
       {"locality", [](RandomPairs&, const Request& r) { return locality_table(r); }},
       {"growth", growth_table},
+      {"arcs", [](RandomPairs&, const Request& r) { return arcs_table(r); }},
+      {"arrangements", [](RandomPairs&, const Request& r) { return arrangements_table(r); }},
       {"cgal", cgal_table}};
   return list;
 }
@@ -107,6 +110,10 @@ void add_options(CLI::App& app, Request& request, Outputs& outputs,
       ->capture_default_str();
   app.add_option("--repeat", request.repetitions.count,
                  "time everything so often; 0: as often as takes 50 ms")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--most-curves", request.most_curves, "leave out what has more curves than this")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

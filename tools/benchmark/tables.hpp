@@ -13,7 +13,8 @@ namespace encase::benchmark {
 struct Request {
   std::vector<int> degrees{2, 4, 6, 8, 10, 12, 15, 20};
   std::vector<std::uint64_t> seeds{1, 2, 3};
-  int cgal_degrees = 12;  ///< CGAL is run up to this degree
+  int cgal_degrees = 12;    ///< CGAL is run up to this degree
+  int most_curves = 10000;  ///< what has more curves is left out
   Repetitions repetitions;
   std::string curves_directory;  ///< of the .curves files
 };
@@ -39,6 +40,13 @@ Table growth_table(RandomPairs& pairs, const Request& request);
 /// The most memory a process needs for one encasement. A process that has used much memory before
 /// cannot tell: to be called first.
 Table memory_table(const Request& request);
+
+/// Circles that cross in up to half a million points: count, time and memory.
+Table circles_table(const Request& request);
+/// Many curves with about one branch each in a small region.
+Table arcs_table(const Request& request);
+/// Quintics in the whole plane, beside CGAL's arrangements.
+Table arrangements_table(const Request& request);
 
 /// A square of the given side around a crossing, moved into [-1,1]^2 where it would leave it.
 Region square_around(const Point<2>& crossing, double side);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// In place of cgal_rival.cpp where CGAL is missing.
+// In place of what measures CGAL, where that is missing.
 #include <stdexcept>
 
+#include "cgal_arrangement.hpp"
 #include "cgal_rival.hpp"
+
+CgalArrangement cgal_arrangement(const std::vector<encase::Polynomial<2>>&, bool) {
+  throw std::logic_error("this program was built without CGAL");
+}
 
 namespace encase::benchmark {
 

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "2d/cell_splitter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "2d/loop_certificates.hpp"
+#include "2d/places.hpp"
+
+namespace encase {
+namespace {
+
+/// The meeting point of two lines, good to an ulp or so of `size`: from its enclosure where that is
+/// tight, in extended precision where the lines meet at a small angle, or exactly.
+Point<2> rounded_meet(const Line& first, const Line& second, const Place& at, double size) {
+  const double width = at.box.largest_width();
+  if (width <= 0x1p-51 * size) return at.center;
+  if (Kernel::kHasExtended && width <= 0x1p-42 * size && !first.rational && !second.rational) {
+    const long double a = first.normal[0], b = first.normal[1], c = first.offset;
+    const long double d = second.normal[0], e = second.normal[1], f = second.offset;
+    const long double determinant = a * e - b * d;
+    return {static_cast<double>((b * f - c * e) / determinant),
+            static_cast<double>((c * d - a * f) / determinant)};
+  }
+  const auto exact = exact_meet(first, second);
+  return {nearest_double(exact[0]), nearest_double(exact[1])};
+}
+
+}  // namespace
+
+CellSplitter::CellSplitter(Partition& partition, const SplittingTask& task)
+    : partition_(partition),
+      task_(task),
+      at_hand_(partition),
+      lines_(at_hand_, task.options.fast) {}
+
+CellSplitter::Shape CellSplitter::shape_of_cell() const {
+  const OpenCell& cell = at_hand_.cell();
+  int curves = 0;
+  for (const auto& presence : at_hand_.curves()) {
+    if (presence.ends > 2) return Shape::Complex;
+    curves += presence.ends > 0;
+  }
+  if (curves < 2) return cell.crossings.empty() ? Shape::Simple : Shape::Complex;
+  if (curves > 2) return Shape::Complex;
+  const bool alternates = at_hand_.curve_at(0) == at_hand_.curve_at(2);
+  if (cell.crossings.size() == 1 && alternates) return Shape::Simple;
+  if (cell.crossings.empty() && !alternates) return Shape::Relaxable;
+  return Shape::Complex;
+}
+
+/// A cell that meets a zone is cut down to the clearance of one.
+bool CellSplitter::find_cut_at_zone(const OpenCell& cell, CellState* settled) {
+  const Box<2> bounds = bounds_of(cell);
+  const double diameter = task_.bounds.largest_width();
+  for (const int k : cell.zones) {
+    const Zone& zone = partition_.zones[k];
+    if (zone.box.largest_width() > diameter / 8) break;
+    for (const double scale : {1.0, 0.83, 1.21}) {
+      Box<2> around = zone.clearance;
+      for (int i = 0; i < 2; ++i) {
+        around.lo[i] = zone.box.lo[i] - scale * (zone.box.lo[i] - zone.clearance.lo[i]);
+        around.hi[i] = zone.box.hi[i] + scale * (zone.clearance.hi[i] - zone.box.hi[i]);
+      }
+      if (around.contains(bounds)) break;
+      if (lines_.find_along(around)) return true;
+    }
+  }
+  // What is left of a cell around a zone is not proved.
+  bool budget = false;
+  for (const Unresolved& entry : task_.undecided)
+    for (const int k : cell.zones)
+      budget = budget || (entry.has_box && partition_.zones[k].box.contains(entry.box));
+  *settled = budget ? CellState::Undecided : CellState::Degenerate;
+  return false;
+}
+
+/// Whether the line that cut the cell at hand in the earlier encasement cuts it now.
+bool CellSplitter::repeat_cut() {
+  const int cut = at_hand_.cell().earlier_cut;
+  return cut >= 0 && at_hand_.prove_only(task_.earlier.line(cut));
+}
+
+/// The line that splits the cell at hand next, or false and the state it is settled in.
+bool CellSplitter::find_cut(CellState* settled) {
+  const OpenCell& cell = at_hand_.cell();
+  if (!cell.zones.empty()) return find_cut_at_zone(cell, settled);
+  *settled = CellState::Undecided;
+  const Shape shape = shape_of_cell();
+  const EncaseOptions& options = task_.options;
+  const bool relax =
+      shape == Shape::Relaxable && (options.relaxed || cell.stall >= options.relax_after_splits);
+  if (shape != Shape::Simple && !relax)
+    return cell.depth < 400 && (lines_.find_best() || lines_.find_any());
+  // Loops last: a ray for every critical region inside, or a split through it.
+  for (const int k : cell.critical_regions) {
+    if (auto certificate = certify_no_loop(at_hand_, k)) {
+      certificates_.push_back(*certificate);
+      continue;
+    }
+    ++loop_splits;
+    for (const Box<2>& box : partition_.critical_regions[k].boxes)
+      if (lines_.find_through(box.center())) return true;
+    return lines_.find_any();
+  }
+  *settled = relax ? CellState::Relaxed : CellState::Certified;
+  return false;
+}
+
+/// Finishes the next cell, or puts its halves on top of the open ones.
+void CellSplitter::process_next() {
+  const OpenCell cell = std::move(open_.back());
+  open_.pop_back();
+  CellState settled = CellState::Undecided;
+  certificates_.clear();
+  at_hand_.take(cell);
+  bool repeated = repeat_cut();
+  bool found = repeated || find_cut(&settled);
+  OpenCell negative(partition_.memory()), positive(partition_.memory());
+  // If the order of the roots on the line cannot be proved: any other line.
+  if (found && !partition_.apply(cell, &at_hand_.cut(), &negative, &positive)) {
+    settled = CellState::Undecided;
+    repeated = false;
+    found = lines_.find_any() && partition_.apply(cell, &at_hand_.cut(), &negative, &positive);
+  }
+  if (!found) {
+    finish(cell, settled);
+    return;
+  }
+  ++splits;
+  negative.sketches = positive.sketches = at_hand_.sketches();
+  if (repeated)
+    std::tie(negative.earlier_cut, positive.earlier_cut) =
+        task_.earlier.next_cuts(cell.earlier_cut);
+  open_.push_back(std::move(positive));
+  open_.push_back(std::move(negative));
+}
+
+void CellSplitter::run(int most_cells) {
+  const double features = static_cast<double>(partition_.crossings.size() + 1);
+  for (; has_open() && static_cast<int>(cells.size()) < most_cells; ++count_) {
+    const auto done = static_cast<double>(cells.size()),
+               left = static_cast<double>(open_.size() - 1) + features;
+    if (count_ % 64 == 63) task_.progress(done / (done + left));
+    // The clock is slow to read.
+    if (count_ % 16 == 0 && task_.stop()) return;
+    process_next();
+  }
+}
+
+bool CellSplitter::halve() {
+  if (open_.size() == 1 && !task_.stop()) process_next();
+  return open_.size() == 2;
+}
+
+std::vector<OpenCell> CellSplitter::hand_over() {
+  std::vector<OpenCell> cells = std::exchange(open_, {});
+  std::reverse(cells.begin(), cells.end());
+  return cells;
+}
+
+void CellSplitter::give_up() {
+  certificates_.clear();
+  for (; has_open(); open_.pop_back()) finish(open_.back(), CellState::Undecided);
+}
+
+void CellSplitter::finish(const OpenCell& open, CellState state) {
+  const int id = static_cast<int>(cells.size());
+  if (open.parent >= 0) {
+    Split& above = partition_.history[open.parent];
+    (open.positive ? above.positive : above.negative) = ~id;
+  }
+  Cell& cell = cells.emplace_back();
+  cell.state = state;
+  cell.depth = open.depth;
+  const int n = static_cast<int>(open.edges.size());
+  const Box<2>& bounds = task_.bounds;
+  const double size = std::max({std::fabs(bounds.lo[0]), std::fabs(bounds.hi[0]),
+                                std::fabs(bounds.lo[1]), std::fabs(bounds.hi[1])});
+  std::size_t vertices = 0;
+  for (int k = 0; k < n; ++k)
+    vertices += static_cast<std::size_t>(std::max(1, open.edges[k].end - open.begin_of(k)));
+  cell.vertices.reserve(vertices);
+  cell.word.assign(open.word.begin(), open.word.end());
+  for (int k = 0; k < n; ++k) {
+    const auto& edge = open.edges[k];
+    const int before = open.edges[(k + n - 1) % n].line;
+    Vertex vertex{before, edge.line, 0, {}};
+    vertex.point =
+        rounded_meet(partition_.lines[before], partition_.lines[edge.line], open.vertices[k], size);
+    cell.vertices.push_back(vertex);
+    for (int i = open.begin_of(k) + 1; i < edge.end; ++i)
+      cell.vertices.push_back({edge.line, edge.line, 0, {}});
+  }
+  for (const int k : open.crossings) partition_.crossings[k].cell = id;
+  if (state == CellState::Undecided && open.zones.empty()) ++unfinished;
+  if (state != CellState::Certified && state != CellState::Relaxed) return;
+  if (!open.crossings.empty()) cell.crossing = open.crossings.front();
+  cell.branches.reserve(cell.word.size() / 2);
+  for (std::size_t i = 0; i < cell.word.size(); ++i)
+    for (std::size_t j = i + 1; j < cell.word.size(); ++j) {
+      const int c = partition_.line_crossings[cell.word[i]].curve;
+      if (partition_.line_crossings[cell.word[j]].curve == c)
+        cell.branches.push_back({c, cell.word[i], cell.word[j]});
+    }
+  cell.loop_certificates = certificates_;
+}
+
+void CellSplitter::join(const OpenCell& cell, CellSplitter* part) {
+  const int first = static_cast<int>(cells.size());
+  const Partition::Numbers numbers = partition_.join(cell, part->partition_, first);
+  for (Cell& made : part->cells) {
+    for (Vertex& vertex : made.vertices) {
+      vertex.line_in = numbers.lines[vertex.line_in];
+      vertex.line_out = numbers.lines[vertex.line_out];
+    }
+    for (int& c : made.word) c = numbers.line_crossings[c];
+    for (Branch& branch : made.branches) {
+      branch.from = numbers.line_crossings[branch.from];
+      branch.to = numbers.line_crossings[branch.to];
+    }
+    cells.push_back(std::move(made));
+  }
+  // (The part has given every crossing inside one of its cells.)
+  for (const int k : cell.crossings) partition_.crossings[k].cell += first;
+  splits += part->splits;
+  loop_splits += part->loop_splits;
+  unfinished += part->unfinished;
+}
+
+}  // namespace encase
