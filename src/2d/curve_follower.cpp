@@ -34,8 +34,7 @@ int CurveFollower::axis_between(const Point<2>& from, const Point<2>& to) {
 }
 
 /// A point of the curve about so far along the tangent, by Newton's iteration in one coordinate.
-CurveFollower::Step CurveFollower::step_from(const Point<2>& at, int direction, double length,
-                                             bool precise) {
+CurveFollower::Step CurveFollower::step_from(const Point<2>& at, int direction, double length) {
   Step step;
   const Point<2> g = value_and_gradient(f_, at).gradient;
   const double advance = direction * length / std::hypot(g[0], g[1]);
@@ -43,14 +42,14 @@ CurveFollower::Step CurveFollower::step_from(const Point<2>& at, int direction, 
   if (!std::isfinite(p[0]) || !std::isfinite(p[1])) return step;
   step.axis = axis_between(at, p);
   const int across = 1 - step.axis;
-  constexpr int kMostIterations = 6;
+  constexpr int kMostIterations = 4;
   for (int k = 0; k < kMostIterations; ++k) {
     const ValueAndGradient here = value_and_gradient(f_, p);
-    const bool last = precise && k >= 2;
-    const double change = (last ? f_.value(p) : here.value) / here.gradient[across];
+    const double change = here.value / here.gradient[across];
     if (!(std::fabs(change) <= 2 * length)) return step;
     p[across] -= change;
-    if (std::fabs(change) <= 0x1p-50 * size_ && (last || !precise)) break;
+    // The rest is for the proof to find.
+    if (std::fabs(change) <= 0x1p-5 * length) break;
   }
   step.found = true;
   step.to = {p, {p, p}};
@@ -60,7 +59,6 @@ CurveFollower::Step CurveFollower::step_from(const Point<2>& at, int direction, 
 CurvePath CurveFollower::follow(const CurvePoint& from, const CurvePoint& to, int direction,
                                 double goal, int most) {
   goal = std::max(goal, least_goal());
-  const bool precise = goal < 0x1p-36 * size_;
   CurvePath path;
   path.points = {from};
   double length = distance(from.point, to.point);
@@ -78,7 +76,7 @@ CurvePath CurveFollower::follow(const CurvePoint& from, const CurvePoint& to, in
         accept(prover_.prove(at, to, false, axis_between(at.point, to.point), direction, goal)))
       return path;
     const double way = rest < 2 * length ? std::min(length, 0.55 * rest) : length;
-    const Step step = step_from(at.point, direction, way, precise);
+    const Step step = step_from(at.point, direction, way);
     if (!step.found) {
       length = 0.5 * way;
       continue;

@@ -42,7 +42,7 @@ class CurveFollower {
     int axis = 0;
     CurvePoint to;
   };
-  Step step_from(const Point<2>& at, int direction, double length, bool precise);
+  Step step_from(const Point<2>& at, int direction, double length);
   int axis_between(const Point<2>& from, const Point<2>& to);
 
   TiledPolynomial& f_;

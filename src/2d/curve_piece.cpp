@@ -24,21 +24,31 @@ struct Expansion {
   alignas(64) std::array<std::array<double, Tile::kRow>, Tile::kRow> c;
 };
 
-/// The polynomial of a tile around the point o of the tile's coordinates, by Horner's scheme. Its
-/// first variable is the tile's `axis`.
+using Rows = std::array<std::array<double, Tile::kRow>, Tile::kRow>;
+
+/// Replaces the variable whose powers the rows belong to by itself plus o, by Horner's scheme. The
+/// terms have total degree up to `degree`.
+void shift_rows(double o, int degree, Rows* rows) {
+  for (int k = 0; k < degree; ++k)
+    for (int i = degree - 1; i >= k; --i) {
+      auto &to = (*rows)[i], &from = (*rows)[i + 1];
+      const int lanes = degree - i <= 8 ? 8 : Tile::kRow;
+      for (int j = 0; j < lanes; ++j) to[j] += o * from[j];
+    }
+}
+
+/// The polynomial of a tile around the point o of the tile's coordinates. Its first variable is the
+/// tile's `axis`.
 void shift(const Tile& tile, const Point<2>& o, int axis, Expansion* expansion) {
   const int m = tile.degree;
-  auto& c = expansion->c;
   expansion->degree = m;
-  for (int i = 0; i <= m; ++i)
-    for (int j = 0; j < Tile::kRow; ++j) c[i][j] = axis == 0 ? tile.a[i][j] : tile.a[j][i];
-  const double along = o[axis], across = o[1 - axis];
-  for (int k = 0; k < m; ++k)
-    for (int i = m - 1; i >= k; --i)
-      for (int j = 0; j < Tile::kRow; ++j) c[i][j] += along * c[i + 1][j];
-  for (int i = 0; i < m; ++i)
-    for (int k = 0; k < m - i; ++k)
-      for (int j = m - i - 1; j >= k; --j) c[i][j] += across * c[i][j + 1];
+  Rows turned;
+  for (int j = 0; j < Tile::kRow; ++j)
+    for (int i = 0; i < Tile::kRow; ++i) turned[j][i] = axis == 0 ? tile.a[i][j] : tile.a[j][i];
+  shift_rows(o[1 - axis], m, &turned);
+  for (int i = 0; i < Tile::kRow; ++i)
+    for (int j = 0; j < Tile::kRow; ++j) expansion->c[i][j] = turned[j][i];
+  shift_rows(o[axis], m, &expansion->c);
 }
 
 /// Replaces s by s * half[0] and t by t * half[1].
@@ -155,7 +165,10 @@ PieceProver::Noise PieceProver::try_with(const Tile& tile, const Question& q,
   const double du = 0.5 * (q.to.point[u] - q.from.point[u]) / tile.half[u];
   const double dv = 0.5 * (q.to.point[v] - q.from.point[v]) / tile.half[v];
   const double bend = m < 2 ? 0 : e.c[2][0] * du * du + (e.c[1][1] * du + e.c[0][2] * dv) * dv;
-  const double room = 3 * std::fabs(bend / e.c[0][1]) * tile.half[v];
+  const double lost = roundings(5 * m + 8);
+  const double error = (tile.error + lost * tile.sum) * kUp + kUnderflow;
+  const double noise = error / std::fabs(e.c[0][1]) * tile.half[v];
+  const double room = 3 * (std::fabs(bend / e.c[0][1]) * tile.half[v] + noise);
   tube.half[u] = q.half[u] * (1 + 0x1p-6);
   tube.half[v] = q.half[v] * (1 + 0x1p-6) + (std::isfinite(room) ? room : 0) + 0x1p-10 * q.half[u];
   for (int k = 0; k < 2; ++k) {
@@ -166,8 +179,6 @@ PieceProver::Noise PieceProver::try_with(const Tile& tile, const Question& q,
     return Noise::Low;
   scale({part[u], part[v]}, &e);
   const Sums sums = sums_of(e);
-  const double lost = roundings(5 * m + 8);
-  const double error = (tile.error + lost * tile.sum) * kUp + kUnderflow;
   const double slope_error = part[v] * (tile.slope_error + lost * tile.slope) * kUp + kUnderflow;
   const double steepness = std::fabs(e.c[0][1]);
   // Where the coefficients alone forbid a proof, it does not matter how precise they are.
@@ -176,19 +187,26 @@ PieceProver::Noise PieceProver::try_with(const Tile& tile, const Question& q,
     attempt->factor = clamped(0.8 * steepness / sums.slope, 0.1, 0.6);
     return heard;
   }
-  const double noise = (error + roundings(64) * sums.all) / steepness * tube.half[v];
-  if (!(noise <= 0.125 * q.goal)) heard = Noise::High;
+  if (!(noise <= 0.125 * std::min(q.goal, q.half[u]))) heard = Noise::High;
 
   // The curve is a graph if it has points at all.
   const double least_slope =
       (steepness - sums.slope - slope_error) * (1 - 0x1p-40) - roundings(8) * sums.all;
   if (!(least_slope > 0)) return heard;
   // It is beside the chord.
+  Point<2> from = q.from.point;
+  CurvePoint& to = attempt->to;
   double s[2], t[2];
   for (const int end : {0, 1}) {
-    const Point<2>& p = (end == 0 ? q.from : q.to).point;
+    Point<2>& p = end == 0 ? from : to.point;
     s[end] = (p[u] - tube.center[u]) / tube.half[u];
     t[end] = (p[v] - tube.center[v]) / tube.half[v];
+    if (end == 0 || !q.free) continue;
+    // To where this tile sees the curve.
+    constexpr int kIterations = 2;
+    for (int k = 0; k < kIterations; ++k) t[1] -= value_at(e, s[1], t[1]) / e.c[0][1];
+    p[v] = tube.center[v] + t[1] * tube.half[v];
+    t[1] = (p[v] - tube.center[v]) / tube.half[v];
   }
   if (!(std::fabs(s[1] - s[0]) >= 1)) return heard;
   tube.beta = (t[1] - t[0]) / (s[1] - s[0]);
@@ -199,7 +217,6 @@ PieceProver::Noise PieceProver::try_with(const Tile& tile, const Question& q,
   if (!(std::fabs(tube.alpha) + std::fabs(tube.beta) + tube.delta <= 1 - 0x1p-40)) return heard;
 
   // The end's box, if it has none.
-  CurvePoint& to = attempt->to;
   if (q.free) {
     const double residue =
         std::fabs(value_at(e, s[1], t[1])) + error + roundings(4 * m + 8) * sums.all;
