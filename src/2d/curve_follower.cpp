@@ -16,6 +16,11 @@ double distance(const Point<2>& p, const Point<2>& q) {
 
 }  // namespace
 
+bool CurvePath::is_proved() const {
+  return std::all_of(pieces.begin(), pieces.end(),
+                     [](const CurvePiece& piece) { return std::isfinite(piece.distance); });
+}
+
 void CurvePath::reverse() {
   std::reverse(points.begin(), points.end());
   std::reverse(pieces.begin(), pieces.end());

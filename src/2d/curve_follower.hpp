@@ -13,6 +13,8 @@ struct CurvePath {
   std::vector<CurvePoint> points;
   std::vector<CurvePiece> pieces;
 
+  /// Whether all pieces are.
+  bool is_proved() const;
   /// The same path from its end.
   void reverse();
   /// Goes on along a path that begins where this one ends.

@@ -145,16 +145,16 @@ struct PieceProver::Question {
   Point<2> half;  ///< of both ends with their boxes, around the centre
 };
 
-PieceProver::Noise PieceProver::try_with(const Tile& tile, const Question& q,
-                                         Attempt* attempt) const {
+PieceProver::Fit PieceProver::try_with(const Tile& tile, const Question& q,
+                                       Attempt* attempt) const {
   *attempt = {};
   attempt->factor = 0.5;
   attempt->to = q.to;
-  if (tile.degree < 1) return Noise::High;
+  if (tile.degree < 1) return Fit::Noisy;
   const int u = q.axis, v = 1 - q.axis, m = tile.degree;
   Point<2> o, part;  // in the tile's coordinates: the centre, and the half widths
   for (int k = 0; k < 2; ++k) o[k] = (q.center[k] - tile.center[k]) / tile.half[k];
-  if (!(std::fabs(o[0]) <= 1 + 0x1p-11) || !(std::fabs(o[1]) <= 1 + 0x1p-11)) return Noise::High;
+  if (!(std::fabs(o[0]) <= 1 + 0x1p-11) || !(std::fabs(o[1]) <= 1 + 0x1p-11)) return Fit::Outside;
   Expansion e;
   shift(tile, o, u, &e);
 
@@ -169,30 +169,31 @@ PieceProver::Noise PieceProver::try_with(const Tile& tile, const Question& q,
   const double error = (tile.error + lost * tile.sum) * kUp + kUnderflow;
   const double noise = error / std::fabs(e.c[0][1]) * tile.half[v];
   const double room = 3 * (std::fabs(bend / e.c[0][1]) * tile.half[v] + noise);
+  if (room > 4 * std::max(q.half[u], q.half[v])) return noise > room / 6 ? Fit::Noisy : Fit::Good;
   tube.half[u] = q.half[u] * (1 + 0x1p-6);
   tube.half[v] = q.half[v] * (1 + 0x1p-6) + (std::isfinite(room) ? room : 0) + 0x1p-10 * q.half[u];
   for (int k = 0; k < 2; ++k) {
     part[k] = tube.half[k] / tile.half[k];
-    if (!(std::fabs(o[k]) + part[k] <= 1 + 0x1p-11)) return Noise::High;
+    if (!(std::fabs(o[k]) + part[k] <= 1 + 0x1p-11)) return Fit::Outside;
   }
   if (!inside(q.from.box, tube.center, tube.half) || !inside(q.to.box, tube.center, tube.half))
-    return Noise::Low;
+    return Fit::Good;
   scale({part[u], part[v]}, &e);
   const Sums sums = sums_of(e);
   const double slope_error = part[v] * (tile.slope_error + lost * tile.slope) * kUp + kUnderflow;
   const double steepness = std::fabs(e.c[0][1]);
   // Where the coefficients alone forbid a proof, it does not matter how precise they are.
-  Noise heard = slope_error <= 0.125 * std::max(steepness, sums.slope) ? Noise::Low : Noise::High;
+  Fit fit = slope_error <= 0.125 * std::max(steepness, sums.slope) ? Fit::Good : Fit::Noisy;
   if (!(steepness > sums.slope)) {
     attempt->factor = clamped(0.8 * steepness / sums.slope, 0.1, 0.6);
-    return heard;
+    return fit;
   }
-  if (!(noise <= 0.125 * std::min(q.goal, q.half[u]))) heard = Noise::High;
+  if (!(noise <= 0.125 * std::min(q.goal, q.half[u]))) fit = Fit::Noisy;
 
   // The curve is a graph if it has points at all.
   const double least_slope =
       (steepness - sums.slope - slope_error) * (1 - 0x1p-40) - roundings(8) * sums.all;
-  if (!(least_slope > 0)) return heard;
+  if (!(least_slope > 0)) return fit;
   // It is beside the chord.
   Point<2> from = q.from.point;
   CurvePoint& to = attempt->to;
@@ -208,20 +209,20 @@ PieceProver::Noise PieceProver::try_with(const Tile& tile, const Question& q,
     p[v] = tube.center[v] + t[1] * tube.half[v];
     t[1] = (p[v] - tube.center[v]) / tube.half[v];
   }
-  if (!(std::fabs(s[1] - s[0]) >= 1)) return heard;
+  if (!(std::fabs(s[1] - s[0]) >= 1)) return fit;
   tube.beta = (t[1] - t[0]) / (s[1] - s[0]);
   tube.alpha = t[0] - tube.beta * s[0];
   const double largest = (largest_on_line(e, tube.alpha, tube.beta) + sums.high + error) * kUp +
                          roundings(64) * sums.all;
   tube.delta = largest / least_slope * kUp + kChordError;
-  if (!(std::fabs(tube.alpha) + std::fabs(tube.beta) + tube.delta <= 1 - 0x1p-40)) return heard;
+  if (!(std::fabs(tube.alpha) + std::fabs(tube.beta) + tube.delta <= 1 - 0x1p-40)) return fit;
 
   // The end's box, if it has none.
   if (q.free) {
     const double residue =
         std::fabs(value_at(e, s[1], t[1])) + error + roundings(4 * m + 8) * sums.all;
     const double away = residue / least_slope * kUp;
-    if (!(std::fabs(t[1]) + away <= 1 - 0x1p-40)) return heard;
+    if (!(std::fabs(t[1]) + away <= 1 - 0x1p-40)) return fit;
     const double reach = away * tube.half[v] * kUp;
     to.box = {to.point, to.point};
     to.box.lo[v] = round_down(to.point[v] - reach);
@@ -233,7 +234,7 @@ PieceProver::Noise PieceProver::try_with(const Tile& tile, const Question& q,
   const bool slope_positive = e.c[0][1] > 0;
   const bool left = u == 0 ? grows == slope_positive : grows != slope_positive;
   const bool apart = grows ? q.from.box.hi[u] < to.box.lo[u] : to.box.hi[u] < q.from.box.lo[u];
-  if (left != (q.direction > 0) || !apart) return heard;
+  if (left != (q.direction > 0) || !apart) return fit;
 
   double slack = 0;
   for (const CurvePoint* p : {&q.from, static_cast<const CurvePoint*>(&to)})
@@ -246,7 +247,7 @@ PieceProver::Noise PieceProver::try_with(const Tile& tile, const Question& q,
   attempt->piece = {u, q.direction,
                     (tube.delta * tube.half[v] + (1 + incline) * slack) * kUp + kUnderflow};
   attempt->factor = clamped(0.9 * std::sqrt(q.goal / attempt->piece.distance), 0.1, 3);
-  return heard;
+  return fit;
 }
 
 /// Makes a tile of its own around the chord; false if it is no better than the one there is.
@@ -274,18 +275,16 @@ Attempt PieceProver::prove(const CurvePoint& from, const CurvePoint& to, bool fr
   }
   Attempt attempt;
   const Tile& shared = f_.at(q.center);
-  if (try_with(shared, q, &attempt) == Noise::Low) return attempt;
-  if (own_.degree >= 0 && try_with(own_, q, &attempt) == Noise::Low) return attempt;
+  if (try_with(shared, q, &attempt) == Fit::Good) return attempt;
+  if (own_.degree >= 0 && try_with(own_, q, &attempt) == Fit::Good) return attempt;
   // Around many pieces to come, then around this one alone, with more and more bits.
   const double small = 2 * size, large = std::clamp(goal * 0x1p40, small, 64 * size);
   const double served = 0.5 * std::min(shared.half[0], shared.half[1]);
-  if (!expand_around(q, std::max(small, std::min(large, served)), Kernel::kDoubleBits))
+  if (!expand_around(q, std::max(small, std::min(large, served)), Kernel::kDoubleBits) ||
+      try_with(own_, q, &attempt) == Fit::Good)
     return attempt;
-  if (try_with(own_, q, &attempt) == Noise::Low) return attempt;
-  for (int bits = Kernel::kDoubleBits; bits > 0; bits = kernel_.next(bits)) {
-    if (!expand_around(q, small, bits)) return attempt;
-    if (try_with(own_, q, &attempt) == Noise::Low) return attempt;
-  }
+  for (int bits = Kernel::kDoubleBits; bits > 0; bits = kernel_.next(bits))
+    if (!expand_around(q, small, bits) || try_with(own_, q, &attempt) != Fit::Noisy) return attempt;
   return attempt;
 }
 

@@ -61,8 +61,9 @@ class PieceProver {
 
  private:
   struct Question;
-  enum class Noise { Low, High };
-  Noise try_with(const Tile& tile, const Question& question, Attempt* attempt) const;
+  /// Whether another tile may do better: this one's errors are too large, or it is too small.
+  enum class Fit { Good, Noisy, Outside };
+  Fit try_with(const Tile& tile, const Question& question, Attempt* attempt) const;
   bool expand_around(const Question& question, double reach, int bits);
 
   TiledPolynomial& f_;

@@ -42,7 +42,7 @@ const CurvePoint& CurveTracer::at_line_crossing(int line_crossing) {
     const Line& line = encasement_.lines[c.line];
     LineRoot root{c.lo, c.hi, c.lo + 0.5 * (c.hi - c.lo)};
     const double goal = std::max(tolerance_, follower_->least_goal());
-    const double width = std::max(0x1p-50 * size_, std::min(0x1p-40 * size_, 0x1p-10 * goal));
+    const double width = std::max(0x1p-50 * size_, std::min(0x1p-43 * size_, 0x1p-10 * goal));
     for (int k = 0; k < 100 && root.hi - root.lo > width; ++k)
       if (!refine_on_line(*tiles_, line, &root, kernel_)) break;
     const auto at = point_on_line(line, Interval(root.lo, root.hi));
@@ -93,13 +93,38 @@ CurvePath CurveTracer::branch(int cell, const Branch& branch, int most) {
 }
 
 CurvePath CurveTracer::strand(const Arrangement::Strand& strand, int most) {
-  const bool to_crossing = strand.to < 0;
-  const int start = to_crossing || strand.from >= 0 ? strand.from : strand.to;
-  const CurvePoint end = to_crossing || strand.from < 0
-                             ? at_crossing(encasement_.cells[strand.cell].crossing)
-                             : at_line_crossing(strand.to);
-  CurvePath path = into_cell(strand.cell, start, end, most);
+  const int start = strand.from >= 0 ? strand.from : strand.to;
+  const int end = start == strand.from ? strand.to : strand.from;
+  CurvePath path = into_cell(strand.cell, start, at_end(strand, end), most);
   if (start != strand.from) path.reverse();
+  return path;
+}
+
+/// Where a strand begins or ends.
+CurvePoint CurveTracer::at_end(const Arrangement::Strand& strand, int line_crossing) {
+  return line_crossing >= 0 ? at_line_crossing(line_crossing)
+                            : at_crossing(encasement_.cells[strand.cell].crossing);
+}
+
+CurvePath CurveTracer::edge(const std::vector<Arrangement::Strand>& strands, int most) {
+  const Arrangement::Strand &first = strands.front(), &last = strands.back();
+  const int direction = first.from >= 0 ? direction_into(first.cell, first.from)
+                                        : -direction_into(first.cell, first.to);
+  std::vector<CurvePoint> stations = {at_end(first, first.from), at_end(last, last.to)};
+  // A loop is walked in two parts, so that no part ends where it begins.
+  if (first.from >= 0 && first.from == last.to && strands.size() > 1)
+    stations.insert(stations.begin() + 1, at_line_crossing(strands[strands.size() / 2].from));
+  CurvePath path;
+  for (std::size_t k = 1; k < stations.size(); ++k) {
+    const int rest = most - static_cast<int>(path.pieces.size());
+    path.append(follower_->follow(stations[k - 1], stations[k], direction, tolerance_,
+                                  direction == 0 ? 0 : rest));
+  }
+  if (path.is_proved()) return path;
+  // Then as much as can be.
+  path = {};
+  for (const Arrangement::Strand& part : strands)
+    path.append(strand(part, most - static_cast<int>(path.pieces.size())));
   return path;
 }
 

@@ -19,10 +19,10 @@ class CurveTracer {
   /// outlive the tracer.
   CurveTracer(const Encasement& encasement, int curve, double tolerance);
 
-  /// A branch of a certified cell from its first line crossing to its second, and a strand from its
-  /// beginning to its end. At most `most` pieces.
+  /// A branch of a certified cell from its first line crossing to its second, and an edge along its
+  /// strands. At most about `most` pieces.
   CurvePath branch(int cell, const Branch& branch, int most);
-  CurvePath strand(const Arrangement::Strand& strand, int most);
+  CurvePath edge(const std::vector<Arrangement::Strand>& strands, int most);
 
   /// Where a line crossing is, the same point whoever asks.
   const CurvePoint& at_line_crossing(int line_crossing);
@@ -35,6 +35,8 @@ class CurveTracer {
 
  private:
   CurvePath into_cell(int cell, int from, const CurvePoint& to, int most);
+  CurvePath strand(const Arrangement::Strand& strand, int most);
+  CurvePoint at_end(const Arrangement::Strand& strand, int line_crossing);
   int direction_into(int cell, int line_crossing);
 
   const Encasement& encasement_;

@@ -43,12 +43,8 @@ class EdgeTracer {
   int room() const { return std::max(options_.max_points - made_, 1); }
 
   CurvePath curve_path(std::size_t edge) {
-    CurvePath path;
-    for (const Arrangement::Strand& strand : a_.edges[edge].strands) {
-      const int before = static_cast<int>(path.pieces.size());
-      path.append(tracers_[a_.edges[edge].curve]->strand(strand, room()));
-      made_ += static_cast<int>(path.pieces.size()) - before;
-    }
+    CurvePath path = tracers_[a_.edges[edge].curve]->edge(a_.edges[edge].strands, room());
+    made_ += static_cast<int>(path.pieces.size());
     return path;
   }
 
@@ -161,7 +157,7 @@ class EdgeTracer {
       if (chosen[k] && curve >= 0 && std::isfinite(piece.distance) && room() > 2)
         finer = tracers_[curve]->finer(old.points[k], old.points[k + 1], piece.direction,
                                        0.25 * piece.distance, room());
-      const bool better = finer.pieces.size() > 1 && std::isfinite(finer.pieces.back().distance);
+      const bool better = finer.pieces.size() > 1 && finer.is_proved();
       if (better) {
         any = true;
         made_ += static_cast<int>(finer.pieces.size()) - 1;
