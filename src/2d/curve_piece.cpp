@@ -197,16 +197,22 @@ PieceProver::Fit PieceProver::try_with(const Tile& tile, const Question& q,
   // It is beside the chord.
   Point<2> from = q.from.point;
   CurvePoint& to = attempt->to;
-  double s[2], t[2];
+  double s[2], t[2], value = 0;
   for (const int end : {0, 1}) {
     Point<2>& p = end == 0 ? from : to.point;
     s[end] = (p[u] - tube.center[u]) / tube.half[u];
     t[end] = (p[v] - tube.center[v]) / tube.half[v];
     if (end == 0 || !q.free) continue;
-    // To where this tile sees the curve.
+    // To where this tile sees the curve, and then to where it is.
     constexpr int kIterations = 2;
     for (int k = 0; k < kIterations; ++k) t[1] -= value_at(e, s[1], t[1]) / e.c[0][1];
     p[v] = tube.center[v] + t[1] * tube.half[v];
+    value = f_.value(p);
+    const double change = value / e.c[0][1] * tube.half[v];
+    if (std::fabs(change) > 0x1p-50 * std::fabs(p[v]) && std::fabs(change) < tube.half[v]) {
+      p[v] -= change;
+      value = f_.value(p);
+    }
     t[1] = (p[v] - tube.center[v]) / tube.half[v];
   }
   if (!(std::fabs(s[1] - s[0]) >= 1)) return fit;
@@ -219,8 +225,7 @@ PieceProver::Fit PieceProver::try_with(const Tile& tile, const Question& q,
 
   // The end's box, if it has none.
   if (q.free) {
-    const double residue =
-        std::fabs(value_at(e, s[1], t[1])) + error + roundings(4 * m + 8) * sums.all;
+    const double residue = (std::fabs(value) * (1 + 0x1p-51) + tile.value_error) * kUp;
     const double away = residue / least_slope * kUp;
     if (!(std::fabs(t[1]) + away <= 1 - 0x1p-40)) return fit;
     const double reach = away * tube.half[v] * kUp;
