@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "2d/partition.hpp"
-
 namespace encase {
 namespace {
 
@@ -34,28 +32,34 @@ void CurvePath::append(const CurvePath& path) {
 
 /// The coordinate along which the curve runs from one point to the other.
 int CurveFollower::axis_between(const Point<2>& from, const Point<2>& to) {
-  const Point<2> p = value_and_gradient(f_, from).gradient, q = value_and_gradient(f_, to).gradient;
+  const Point<2> p = prover_.look_at(from).gradient, q = prover_.look_at(to).gradient;
   return std::fabs(p[0] + q[0]) > std::fabs(p[1] + q[1]) ? 1 : 0;
 }
 
 /// A point of the curve about so far along the tangent, by Newton's iteration in one coordinate.
 CurveFollower::Step CurveFollower::step_from(const Point<2>& at, int direction, double length) {
   Step step;
-  const Point<2> g = value_and_gradient(f_, at).gradient;
+  const Point<2> g = prover_.look_at(at).gradient;
   const double advance = direction * length / std::hypot(g[0], g[1]);
-  Point<2> p = {at[0] + advance * g[1], at[1] - advance * g[0]};
-  if (!std::isfinite(p[0]) || !std::isfinite(p[1])) return step;
-  step.axis = axis_between(at, p);
+  const Point<2> start = {at[0] + advance * g[1], at[1] - advance * g[0]};
+  if (!std::isfinite(start[0]) || !std::isfinite(start[1])) return step;
+  step.axis = axis_between(at, start);
   const int across = 1 - step.axis;
   constexpr int kMostIterations = 4;
-  for (int k = 0; k < kMostIterations; ++k) {
-    const ValueAndGradient here = value_and_gradient(f_, p);
-    const double change = here.value / here.gradient[across];
-    if (!(std::fabs(change) <= 2 * length)) return step;
-    p[across] -= change;
-    // The rest is for the proof to find.
-    if (std::fabs(change) <= 0x1p-5 * length) break;
-  }
+  Point<2> p = start;
+  const auto approach = [&](bool precise) {
+    p = start;
+    for (int k = 0; k < kMostIterations; ++k) {
+      const ValueAndGradient here = prover_.look_at(p);
+      const double change = (precise ? f_.value(p) : here.value) / here.gradient[across];
+      if (!(std::fabs(change) <= 2 * length)) return false;
+      p[across] -= change;
+      // The rest is for the proof to find.
+      if (std::fabs(change) <= 0x1p-5 * length) return true;
+    }
+    return true;
+  };
+  if (!approach(false) && !approach(true)) return step;
   step.found = true;
   step.to = {p, {p, p}};
   return step;

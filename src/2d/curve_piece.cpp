@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "common/interval.hpp"
@@ -169,7 +171,15 @@ PieceProver::Fit PieceProver::try_with(const Tile& tile, const Question& q,
   const double error = (tile.error + lost * tile.sum) * kUp + kUnderflow;
   const double noise = error / std::fabs(e.c[0][1]) * tile.half[v];
   const double room = 3 * (std::fabs(bend / e.c[0][1]) * tile.half[v] + noise);
-  if (room > 4 * std::max(q.half[u], q.half[v])) return noise > room / 6 ? Fit::Noisy : Fit::Good;
+  if (room > 4 * std::max(q.half[u], q.half[v])) {
+    if (getenv("TR2") && noise > room / 6)
+      fprintf(stderr,
+              "NOISYROOM  tile half %g bits %d error %g (tile %g sum %g)  noise %g goal %g half %g "
+              "%g room %g\n",
+              tile.half[0], tile.bits, error, tile.error, tile.sum, noise, q.goal, q.half[0],
+              q.half[1], room);
+    return noise > room / 6 ? Fit::Noisy : Fit::Good;
+  }
   tube.half[u] = q.half[u] * (1 + 0x1p-6);
   tube.half[v] = q.half[v] * (1 + 0x1p-6) + (std::isfinite(room) ? room : 0) + 0x1p-10 * q.half[u];
   for (int k = 0; k < 2; ++k) {
@@ -186,10 +196,22 @@ PieceProver::Fit PieceProver::try_with(const Tile& tile, const Question& q,
   Fit fit = slope_error <= 0.125 * std::max(steepness, sums.slope) ? Fit::Good : Fit::Noisy;
   if (!(steepness > sums.slope)) {
     attempt->factor = clamped(0.8 * steepness / sums.slope, 0.1, 0.6);
+    if (getenv("TR2") && (fit == Fit::Noisy))
+      fprintf(stderr,
+              "NOISYCOARSE  tile half %g bits %d error %g (tile %g sum %g) steep %g slope %g "
+              "slope_error %g noise %g goal %g half %g %g room %g sumsall %g\n",
+              tile.half[0], tile.bits, error, tile.error, tile.sum, steepness, sums.slope,
+              slope_error, noise, q.goal, q.half[0], q.half[1], room, sums.all);
     return fit;
   }
   if (!(noise <= 0.125 * std::min(q.goal, q.half[u]))) fit = Fit::Noisy;
 
+  if (getenv("TR2") && (fit == Fit::Noisy))
+    fprintf(stderr,
+            "NOISY  tile half %g bits %d error %g (tile %g sum %g) steep %g slope %g slope_error "
+            "%g noise %g goal %g half %g %g room %g sumsall %g\n",
+            tile.half[0], tile.bits, error, tile.error, tile.sum, steepness, sums.slope,
+            slope_error, noise, q.goal, q.half[0], q.half[1], room, sums.all);
   // The curve is a graph if it has points at all.
   const double least_slope =
       (steepness - sums.slope - slope_error) * (1 - 0x1p-40) - roundings(8) * sums.all;
@@ -279,18 +301,31 @@ Attempt PieceProver::prove(const CurvePoint& from, const CurvePoint& to, bool fr
     size = std::max(size, q.half[k]);
   }
   Attempt attempt;
+  if (own_holds(q.center) && try_with(own_, q, &attempt) == Fit::Good) return attempt;
   const Tile& shared = f_.at(q.center);
   if (try_with(shared, q, &attempt) == Fit::Good) return attempt;
-  if (own_.degree >= 0 && try_with(own_, q, &attempt) == Fit::Good) return attempt;
   // Around many pieces to come, then around this one alone, with more and more bits.
   const double small = 2 * size, large = std::clamp(goal * 0x1p40, small, 64 * size);
   const double served = 0.5 * std::min(shared.half[0], shared.half[1]);
-  if (!expand_around(q, std::max(small, std::min(large, served)), Kernel::kDoubleBits) ||
+  if (small > served || !expand_around(q, std::min(large, served), Kernel::kDoubleBits) ||
       try_with(own_, q, &attempt) == Fit::Good)
     return attempt;
   for (int bits = Kernel::kDoubleBits; bits > 0; bits = kernel_.next(bits))
     if (!expand_around(q, small, bits) || try_with(own_, q, &attempt) != Fit::Noisy) return attempt;
   return attempt;
+}
+
+bool PieceProver::own_holds(const Point<2>& point) const {
+  return own_.degree >= 0 && std::fabs(point[0] - own_.center[0]) <= own_.half[0] &&
+         std::fabs(point[1] - own_.center[1]) <= own_.half[1];
+}
+
+ValueAndGradient PieceProver::look_at(const Point<2>& point) {
+  const Tile& tile = own_holds(point) ? own_ : f_.at(point);
+  Point<2> s;
+  for (int k = 0; k < 2; ++k) s[k] = (point[k] - tile.center[k]) / tile.half[k];
+  const auto [value, slope_0, slope_1] = value_and_gradient(tile, s);
+  return {value, {slope_0 / tile.half[0], slope_1 / tile.half[1]}};
 }
 
 }  // namespace encase

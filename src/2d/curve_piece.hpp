@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "2d/partition.hpp"
 #include "common/kernel.hpp"
 #include "common/tile.hpp"
 #include "encase/geometry.hpp"
@@ -59,11 +60,15 @@ class PieceProver {
   Attempt prove(const CurvePoint& from, const CurvePoint& to, bool free, int axis, int direction,
                 double goal);
 
+  /// About the value and gradient at a point, from the best tile at hand.
+  ValueAndGradient look_at(const Point<2>& point);
+
  private:
   struct Question;
   /// Whether another tile may do better: this one's errors are too large, or it is too small.
   enum class Fit { Good, Noisy, Outside };
   Fit try_with(const Tile& tile, const Question& question, Attempt* attempt) const;
+  bool own_holds(const Point<2>& point) const;
   bool expand_around(const Question& question, double reach, int bits);
 
   TiledPolynomial& f_;
