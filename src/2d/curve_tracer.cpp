@@ -88,10 +88,6 @@ CurvePath CurveTracer::into_cell(int cell, int from, const CurvePoint& to, int m
   return follower_->follow(start, to, direction, tolerance_, direction == 0 ? 0 : most);
 }
 
-CurvePath CurveTracer::branch(int cell, const Branch& branch, int most) {
-  return into_cell(cell, branch.from, at_line_crossing(branch.to), most);
-}
-
 CurvePath CurveTracer::strand(const Arrangement::Strand& strand, int most) {
   const int start = strand.from >= 0 ? strand.from : strand.to;
   const int end = start == strand.from ? strand.to : strand.from;
@@ -131,14 +127,6 @@ CurvePath CurveTracer::edge(const std::vector<Arrangement::Strand>& strands, int
 CurvePath CurveTracer::finer(const CurvePoint& from, const CurvePoint& to, int direction,
                              double goal, int most) {
   return follower_->follow(from, to, direction, goal, most);
-}
-
-std::vector<std::unique_ptr<CurveTracer>> tracers_of(const Encasement& encasement,
-                                                     double tolerance) {
-  std::vector<std::unique_ptr<CurveTracer>> tracers;
-  for (std::size_t k = 0; k < encasement.curves.size(); ++k)
-    tracers.push_back(std::make_unique<CurveTracer>(encasement, static_cast<int>(k), tolerance));
-  return tracers;
 }
 
 }  // namespace encase

@@ -12,16 +12,16 @@
 
 namespace encase {
 
-/// Traces branches of one curve of an encasement. Makes what it needs when it is first asked.
+/// Traces one curve of an encasement, where its cells are certified. Makes what it needs when it is
+/// first asked.
 class CurveTracer {
  public:
   /// Paths are within `tolerance` of the curve, where that can be proved. The encasement is to
   /// outlive the tracer.
   CurveTracer(const Encasement& encasement, int curve, double tolerance);
 
-  /// A branch of a certified cell from its first line crossing to its second, and an edge along its
-  /// strands. At most about `most` pieces.
-  CurvePath branch(int cell, const Branch& branch, int most);
+  /// An edge, or another part of the curve, along strands that go on in each other. At most about
+  /// `most` pieces.
   CurvePath edge(const std::vector<Arrangement::Strand>& strands, int most);
 
   /// Where a line crossing is, the same point whoever asks.
@@ -48,9 +48,5 @@ class CurveTracer {
   std::unique_ptr<CurveFollower> follower_;
   std::map<int, CurvePoint> ends_;
 };
-
-/// The tracers of an encasement's curves.
-std::vector<std::unique_ptr<CurveTracer>> tracers_of(const Encasement& encasement,
-                                                     double tolerance);
 
 }  // namespace encase

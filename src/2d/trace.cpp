@@ -14,7 +14,7 @@
 namespace encase {
 namespace {
 
-constexpr int kMostPieces = 100000;  // of a branch
+constexpr int kMostPieces = 100000;  // of a polyline
 
 /// What pictures may ask for.
 double sensible(const Encasement& encasement, double tolerance) {
@@ -31,20 +31,23 @@ Polyline polyline_of(const CurvePath& path) {
   return line;
 }
 
-/// Joins polylines whose ends are line crossings.
+/// Joins branches of one curve that go on in each other.
 class Chains {
  public:
-  void add(int from, int to, Polyline points) {
-    const int id = static_cast<int>(pieces_.size());
-    pieces_.push_back({{from, to}, std::move(points), false});
-    at_[from].push_back(id);
-    at_[to].push_back(id);
+  using Strand = Arrangement::Strand;
+
+  void add(const Strand& strand) {
+    const int id = static_cast<int>(strands_.size());
+    strands_.push_back(strand);
+    used_.push_back(false);
+    at_[strand.from].push_back(id);
+    at_[strand.to].push_back(id);
   }
 
-  std::vector<Polyline> join() {
-    std::vector<Polyline> chains;
-    for (int id = 0; id < static_cast<int>(pieces_.size()); ++id) {
-      if (pieces_[id].used) continue;
+  std::vector<std::vector<Strand>> join() {
+    std::vector<std::vector<Strand>> chains;
+    for (int id = 0; id < static_cast<int>(strands_.size()); ++id) {
+      if (used_[id]) continue;
       // Back to the beginning of the chain, or around a loop to where we are; then forwards.
       int first = id, end = 0;
       while (true) {
@@ -59,37 +62,33 @@ class Chains {
   }
 
  private:
-  struct Piece {
-    std::array<int, 2> ends;
-    Polyline points;
-    bool used = false;
-  };
+  int end_of(int id, int end) const { return end == 0 ? strands_[id].from : strands_[id].to; }
 
-  /// The piece that goes on at an end of a piece, with its own end there.
+  /// The strand that goes on at an end of a strand, with its own end there.
   std::optional<std::pair<int, int>> neighbour(int id, int end) const {
-    const int crossing = pieces_[id].ends[end];
+    const int crossing = end_of(id, end);
     const std::vector<int>& here = at_.at(crossing);
     if (here.size() != 2 || here[0] == here[1]) return std::nullopt;
     const int other = here[0] == id ? here[1] : here[0];
-    return std::pair(other, pieces_[other].ends[0] == crossing ? 0 : 1);
+    return std::pair(other, end_of(other, 0) == crossing ? 0 : 1);
   }
 
-  Polyline walk(int id, int start) {
-    Polyline chain;
+  std::vector<Strand> walk(int id, int start) {
+    std::vector<Strand> chain;
     while (true) {
-      Piece& piece = pieces_[id];
-      piece.used = true;
-      if (start == 1) std::reverse(piece.points.begin(), piece.points.end());
-      chain.insert(chain.end(), piece.points.begin() + (chain.empty() ? 0 : 1), piece.points.end());
+      used_[id] = true;
+      chain.push_back(strands_[id]);
+      if (start == 1) std::swap(chain.back().from, chain.back().to);
       const auto next = neighbour(id, 1 - start);
-      if (!next || pieces_[next->first].used) return chain;
+      if (!next || used_[next->first]) return chain;
       id = next->first;
       start = next->second;
     }
   }
 
-  std::vector<Piece> pieces_;
-  std::map<int, std::vector<int>> at_;  ///< pieces that end at a line crossing
+  std::vector<Strand> strands_;
+  std::vector<bool> used_;
+  std::map<int, std::vector<int>> at_;  ///< strands that end at a line crossing
 };
 
 }  // namespace
@@ -97,18 +96,19 @@ class Chains {
 Polyline trace_branch(const Encasement& encasement, int cell, const Branch& branch,
                       double tolerance) {
   return polyline_of(CurveTracer(encasement, branch.curve, sensible(encasement, tolerance))
-                         .branch(cell, branch, kMostPieces));
+                         .edge({{cell, -1, branch.from, branch.to}}, kMostPieces));
 }
 
 std::vector<Polyline> trace_curve(const Encasement& encasement, int curve, double tolerance) {
-  CurveTracer tracer(encasement, curve, sensible(encasement, tolerance));
   Chains chains;
   for (std::size_t k = 0; k < encasement.cells.size(); ++k)
     for (const Branch& branch : encasement.cells[k].branches)
-      if (branch.curve == curve)
-        chains.add(branch.from, branch.to,
-                   polyline_of(tracer.branch(static_cast<int>(k), branch, kMostPieces)));
-  return chains.join();
+      if (branch.curve == curve) chains.add({static_cast<int>(k), -1, branch.from, branch.to});
+  CurveTracer tracer(encasement, curve, sensible(encasement, tolerance));
+  std::vector<Polyline> lines;
+  for (const auto& chain : chains.join())
+    lines.push_back(polyline_of(tracer.edge(chain, kMostPieces)));
+  return lines;
 }
 
 std::vector<Polyline> trace_edges(const Encasement& encasement, const Arrangement& arrangement,

@@ -24,7 +24,7 @@ class EdgeTracer {
       : e_(encasement),
         a_(arrangement),
         options_(options),
-        tracers_(tracers_of(encasement, options.tolerance)),
+        tracers_(encasement.curves.size()),
         paths_(arrangement.edges.size()) {}
 
   /// The edges on the boundaries of faces; the other ones get no points.
@@ -40,10 +40,15 @@ class EdgeTracer {
   }
 
  private:
+  CurveTracer& tracer(int curve) {
+    auto& made = tracers_[curve];
+    if (!made) made = std::make_unique<CurveTracer>(e_, curve, options_.tolerance);
+    return *made;
+  }
   int room() const { return std::max(options_.max_points - made_, 1); }
 
   CurvePath curve_path(std::size_t edge) {
-    CurvePath path = tracers_[a_.edges[edge].curve]->edge(a_.edges[edge].strands, room());
+    CurvePath path = tracer(a_.edges[edge].curve).edge(a_.edges[edge].strands, room());
     made_ += static_cast<int>(path.pieces.size());
     return path;
   }
@@ -67,9 +72,9 @@ class EdgeTracer {
 
   CurvePoint place_of(const Arrangement::Vertex& vertex) {
     if (vertex.kind == Arrangement::Vertex::Kind::Crossing)
-      return tracers_[e_.crossings[vertex.index].curves[0]]->at_crossing(vertex.index);
+      return tracer(e_.crossings[vertex.index].curves[0]).at_crossing(vertex.index);
     if (vertex.kind == Arrangement::Vertex::Kind::OnBoundary)
-      return tracers_[e_.line_crossings[vertex.index].curve]->at_line_crossing(vertex.index);
+      return tracer(e_.line_crossings[vertex.index].curve).at_line_crossing(vertex.index);
     CurvePoint corner;
     for (int i = 0; i < 2; ++i) {
       const Rational& exact = e_.region_used.corners[vertex.index][i];
@@ -155,8 +160,8 @@ class EdgeTracer {
       const CurvePiece& piece = old.pieces[k];
       CurvePath finer;
       if (chosen[k] && curve >= 0 && std::isfinite(piece.distance) && room() > 2)
-        finer = tracers_[curve]->finer(old.points[k], old.points[k + 1], piece.direction,
-                                       0.25 * piece.distance, room());
+        finer = tracer(curve).finer(old.points[k], old.points[k + 1], piece.direction,
+                                    0.25 * piece.distance, room());
       const bool better = finer.pieces.size() > 1 && finer.is_proved();
       if (better) {
         any = true;
