@@ -118,6 +118,12 @@ struct Arrangement {
   std::array<int, 2> faces_at(int edge) const {
     return {half_edges[2 * edge].face, half_edges[2 * edge + 1].face};
   }
+  /// The face on the other side of a half-edge.
+  int across(int half_edge) const { return half_edges[twin(half_edge)].face; }
+  /// The faces that share an edge with a face, each once, ascending.
+  std::vector<int> neighbours(int face) const;
+  /// A half-edge of every boundary cycle of a face: the outer one first, if there is one.
+  std::vector<int> boundaries(int face) const;
   /// The half-edges of the boundary cycle on which a half-edge lies, from it on.
   std::vector<int> cycle(int half_edge) const;
   /// Whether a part of the region's boundary is in that of a face. In the whole plane: whether the

@@ -354,6 +354,21 @@ std::vector<int> Arrangement::faces_around(int vertex) const {
   return result;
 }
 
+std::vector<int> Arrangement::boundaries(int face) const {
+  std::vector<int> result = faces[face].holes;
+  if (faces[face].outer >= 0) result.insert(result.begin(), faces[face].outer);
+  return result;
+}
+
+std::vector<int> Arrangement::neighbours(int face) const {
+  std::vector<int> result;
+  for (const int first : boundaries(face))
+    for (const int h : cycle(first)) result.push_back(across(h));
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
 std::vector<int> Arrangement::cycle(int half_edge) const {
   std::vector<int> result;
   int h = half_edge;

@@ -5,21 +5,15 @@
 
 #include "encase/arrangement.hpp"
 #include "encase/encasement.hpp"
+#include "encase/tracing.hpp"
 
-/// Polylines along curves, for pictures. A certified cell holds a curve in one branch, an arc that
-/// cuts the convex cell in two. A line that the arc crosses just once cuts it into two such arcs in
-/// two convex parts of the cell: so the order of points along the branch is known whatever its
-/// shape, and bisection goes on until each part of the arc is caught between two lines parallel to
-/// its chord.
-///
-/// Parts of cells and their corners are doubles here: nothing of this is a certificate.
+/// Polylines for pictures, also of encasements that are not certified: traced as in
+/// encase/tracing.hpp, but no more is told than the points, and tolerances below 2^-30 of the
+/// largest coordinate are not met.
 namespace encase {
 
-using Polyline = std::vector<Point<2>>;
-
 /// A polyline along a branch of a certified cell from the branch's first line crossing to its
-/// second, within about `tolerance` (> 0, in input units) of it. Where no line can be found that
-/// the branch crosses just once, or doubles give out, the polyline has a longer chord.
+/// second, within `tolerance` (in input units) of it.
 Polyline trace_branch(const Encasement& encasement, int cell, const Branch& branch,
                       double tolerance);
 
