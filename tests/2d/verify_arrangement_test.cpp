@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "2d/verify_claims.hpp"
 #include "encase/arrangement.hpp"
 #include "encased.hpp"
 #include "verified.hpp"
@@ -25,6 +26,20 @@ void expect_accepted(const Encasement& e, const Arrangement& a) {
   const Verification verification = verify(e, a);
   EXPECT_TRUE(verification.ok()) << text(verification);
   EXPECT_GT(verification.claims, verify(e).claims);
+}
+
+TEST(VerifyArrangement, IsAClaimOfEveryCertifiedEncasement) {
+  const auto objections = [](const Encasement& e) {
+    verification::Claims claims(e, {});
+    verification::check_arrangement(claims);
+    return text(claims.report);
+  };
+  for (const Encasement& e : {two_lines(), circle_and_line(), relaxed(), four_curves(), nested()})
+    EXPECT_EQ(objections(e), "");
+  Encasement e = circle_and_line();
+  std::swap(e.cells[0].word[0], e.cells[0].word[1]);
+  EXPECT_NE(objections(e).find("The result has no arrangement: "), std::string::npos);
+  EXPECT_NE(objections(node()), "");
 }
 
 TEST(VerifyArrangement, AcceptsTheArrangementOfTheEncasement) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -160,6 +161,27 @@ TEST(ArrangementJson, RefusesListsThatAreShorterOrLonger) {
       };
   visit(Json::json_pointer(), right["arrangement"]);
   EXPECT_GT(changes, 500);
+}
+
+TEST(ArrangementJson, SurvivesDamagedBytes) {
+  const Encasement e = scene();
+  const Arrangement a = arrange(e).value();
+  const std::string text = to_json(e, &a);
+  const std::size_t from = text.find("\"arrangement\""), to = text.find("\"statistics\"");
+  ASSERT_LT(from, to);
+  std::mt19937 random(4);
+  int read = 0;
+  for (int round = 0; round < 5000; ++round) {
+    std::string damaged = text;
+    for (int k = 0; k < 3; ++k)
+      damaged[from + random() % (to - from)] = "0123456789-[]{},\"ae.\0"[random() % 22];
+    const Result<StoredResult> stored = result_from_json(damaged, "damaged");
+    if (!stored || !stored.value().arrangement) continue;
+    ++read;
+    // Whatever it is, its parts can be followed.
+    static_cast<void>(check(*stored.value().arrangement));
+  }
+  EXPECT_GT(read, 0);
 }
 
 TEST(ArrangementJson, NamesThePlaceOfAnError) {

@@ -484,11 +484,12 @@ class Check(CommandTest):
         def with_a_point_moved(arrangement):
             arrangement["vertices"][4]["x"] += 1e-9
 
-        def with_another_strand(arrangement):
-            arrangement["edges"][0]["strands"].reverse()
+        def with_a_strand_reversed(arrangement):
+            cell, branch, begin, end = arrangement["edges"][0]["strands"][0]
+            arrangement["edges"][0]["strands"][0] = [cell, branch, end, begin]
 
         for change in (with_other_signs, with_another_parent, with_a_point_moved,
-                       with_another_strand):
+                       with_a_strand_reversed):
             with self.subTest(change.__name__):
                 result = self.result()
                 change(result["arrangement"])
