@@ -79,6 +79,8 @@ def show(directory, with_faces):
     if with_faces and not blocks["faces"]:
         sys.exit("there are no faces: the result is not certified")
 
+    points = blocks["vertices"] if with_faces else blocks["points"]
+    crowded = points and points.GetDataInformation().GetNumberOfCells() > 150
     cells = blocks["cells"]
     bounds = cells.GetDataInformation().GetBounds()
     # Everything lies in the plane z = 0; seen from above, a little height keeps layers in order.
@@ -112,9 +114,8 @@ def show(directory, with_faces):
     if blocks["curves"]:
         display = Show(blocks["curves"], view)
         display.Position = [0.0, 0.0, 2 * layer]
-        display.LineWidth = 3.0
+        display.LineWidth = 1.5 if crowded else 3.0
         colour_by(display, "curve", names, CURVE_COLOURS)
-        display.SetScalarBarVisibility(view, True)
         bar = GetScalarBar(display.LookupTable, view)
         bar.Title, bar.ComponentTitle = "curve", ""
         bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
@@ -122,6 +123,7 @@ def show(directory, with_faces):
         bar.ScalarBarLength = 0.1
         bar.ScalarBarThickness = 10
         bar.TitleFontSize = bar.LabelFontSize = 12
+        display.SetScalarBarVisibility(view, len(names) <= 12)
     if blocks["unresolved"]:
         display = Show(blocks["unresolved"], view)
         display.Position = [0.0, 0.0, 3 * layer]
@@ -129,12 +131,11 @@ def show(directory, with_faces):
         display.LineWidth = 4.0
         display.ColorArrayName = [None, ""]
         display.AmbientColor = display.DiffuseColor = [0.76, 0.07, 0.12]
-    points = blocks["vertices"] if with_faces else blocks["points"]
     if points:
         display = Show(points, view)
         display.Position = [0.0, 0.0, 4 * layer]
         display.SetRepresentationType("Points")
-        display.PointSize = 9.0
+        display.PointSize = 4.0 if crowded else 9.0
         display.ColorArrayName = [None, ""]
         display.AmbientColor = display.DiffuseColor = [0.1, 0.1, 0.1]
 
