@@ -17,7 +17,8 @@ import sys
 
 from paraview import servermanager
 from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetColorTransferFunction, GetScalarBar,
-                             Render, ResetCamera, SaveScreenshot, Show, XMLPolyDataReader)
+                             QuerySelect, Render, ResetCamera, SaveScreenshot, SetActiveSource, Show,
+                             XMLPolyDataReader)
 
 # Okabe and Ito's colours, which people with any colour vision can tell apart.
 CURVE_COLOURS = [(0.00, 0.45, 0.70), (0.84, 0.37, 0.00), (0.00, 0.62, 0.45), (0.80, 0.47, 0.65),
@@ -66,6 +67,22 @@ def face_colours(faces):
     return [FACE_COLOURS[codes.get(k, 0)] for k in range(max(codes) + 1)]
 
 
+def show_labels(labels, view, height):
+    """The names of faces, edges and vertices beside their points."""
+    display = Show(labels, view)
+    display.SetRepresentationType("Points")
+    display.Position = [0.0, 0.0, height]
+    display.PointSize = 1.0
+    display.ColorArrayName = [None, ""]
+    SetActiveSource(labels)
+    QuerySelect(QueryString="(id >= 0)", FieldType="POINT")
+    display.SelectionPointLabelVisibility = 1
+    display.SelectionPointFieldDataArrayName = "label"
+    display.SelectionPointLabelColor = [0.1, 0.1, 0.1]
+    display.SelectionPointLabelFontSize = 14
+    display.SelectionPointSize = 1.0
+
+
 def show(directory, with_faces):
     view = GetActiveViewOrCreate("RenderView")
     view.InteractionMode = "2D"
@@ -75,7 +92,7 @@ def show(directory, with_faces):
     view.OrientationAxesVisibility = 0
     blocks = {name: open_block(directory, name)
               for name in ["cells", "faces", "critical_regions", "curves", "unresolved", "points",
-                           "vertices"]}
+                           "vertices", "labels"]}
     if with_faces and not blocks["faces"]:
         sys.exit("there are no faces: the result is not certified")
 
@@ -138,6 +155,9 @@ def show(directory, with_faces):
         display.PointSize = 4.0 if crowded else 9.0
         display.ColorArrayName = [None, ""]
         display.AmbientColor = display.DiffuseColor = [0.1, 0.1, 0.1]
+
+    if with_faces and not crowded:
+        show_labels(blocks["labels"], view, 5 * layer)
 
     ResetCamera(view)
     view.CameraParallelProjection = 1
