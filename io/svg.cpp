@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "2d/piece_complex.hpp"
 #include "2d/trace.hpp"
 #include "encase/arrangement.hpp"
 #include "svg_labels.hpp"
@@ -204,32 +205,14 @@ class Picture {
     return kTints[code];
   }
 
-  /// A boundary of a face as one closed polyline.
-  std::vector<Point<2>> boundary(int first) const {
-    std::vector<Point<2>> points;
-    for (const int h : arrangement_->cycle(first)) {
-      const Polyline& edge = edges_[Arrangement::edge_of(h)];
-      if (h % 2 == 0)
-        points.insert(points.end(), edge.begin(), edge.end());
-      else
-        points.insert(points.end(), edge.rbegin(), edge.rend());
-    }
-    return points;
-  }
-
-  std::vector<std::vector<Point<2>>> boundaries(const Arrangement::Face& face) const {
-    std::vector<std::vector<Point<2>>> all = {boundary(face.outer)};
-    for (const int hole : face.holes) all.push_back(boundary(hole));
-    return all;
-  }
-
   void draw_faces() {
     add("<g id=\"faces\" fill-rule=\"evenodd\">\n");
     for (std::size_t f = 0; f < arrangement_->faces.size(); ++f) {
       const Arrangement::Face& face = arrangement_->faces[f];
       if (face.outer < 0) continue;
       std::string path, signs;
-      for (const auto& points : boundaries(face)) path += view_.path(points, true);
+      for (const Polyline& points : boundaries(*arrangement_, edges_, face))
+        path += view_.path(points, true);
       for (const Sign sign : face.signs) signs += sign == Sign::Positive ? "+" : "\u2212";
       add("<path fill=\"{}\" d=\"{}\"><title>face {}: {}</title></path>\n", face_tint(face.signs),
           path, f, signs);
@@ -282,7 +265,8 @@ class Picture {
     for (std::size_t f = 0; f < a.faces.size(); ++f) {
       if (a.faces[f].outer < 0) continue;
       std::vector<std::vector<Point<2>>> all;
-      for (const auto& points : boundaries(a.faces[f])) all.push_back(in_pixels(points));
+      for (const Polyline& points : boundaries(a, edges_, a.faces[f]))
+        all.push_back(in_pixels(points));
       texts += placer.in_face("f" + std::to_string(f), all, "#555");
     }
     for (std::size_t v = 0; v < a.vertices.size(); ++v)

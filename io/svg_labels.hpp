@@ -8,16 +8,6 @@
 
 namespace encase {
 
-/// About the largest circle in a region of the plane.
-struct Clearing {
-  Point<2> center{};
-  double radius = 0;
-};
-
-/// The largest circle in the region that closed polygons bound (even-odd), to within one unit of
-/// its radius. Cost: the number of corners for each of at most a thousand places tried.
-Clearing largest_clearing(const std::vector<std::vector<Point<2>>>& boundaries);
-
 /// Finds room for labels in a picture, in pixels: no two of them overlap. What finds no room has no
 /// label: these functions return an SVG text, or nothing.
 class LabelPlacer {

@@ -17,7 +17,8 @@ import sys
 
 from paraview import servermanager
 from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetColorTransferFunction, GetScalarBar,
-                             Render, ResetCamera, SaveScreenshot, Show, XMLPolyDataReader)
+                             QuerySelect, Render, ResetCamera, SaveScreenshot, SetActiveSource, Show,
+                             XMLPolyDataReader)
 
 # Okabe and Ito's colours, which people with any colour vision can tell apart.
 CURVE_COLOURS = [(0.00, 0.45, 0.70), (0.84, 0.37, 0.00), (0.00, 0.62, 0.45), (0.80, 0.47, 0.65),
@@ -66,6 +67,22 @@ def face_colours(faces):
     return [FACE_COLOURS[codes.get(k, 0)] for k in range(max(codes) + 1)]
 
 
+def show_labels(labels, view, height):
+    """The names of faces, edges and vertices beside their points."""
+    display = Show(labels, view)
+    display.SetRepresentationType("Points")
+    display.Position = [0.0, 0.0, height]
+    display.PointSize = 1.0
+    display.ColorArrayName = [None, ""]
+    SetActiveSource(labels)
+    QuerySelect(QueryString="(id >= 0)", FieldType="POINT")
+    display.SelectionPointLabelVisibility = 1
+    display.SelectionPointFieldDataArrayName = "label"
+    display.SelectionPointLabelColor = [0.1, 0.1, 0.1]
+    display.SelectionPointLabelFontSize = 14
+    display.SelectionPointSize = 1.0
+
+
 def show(directory, with_faces):
     view = GetActiveViewOrCreate("RenderView")
     view.InteractionMode = "2D"
@@ -75,10 +92,12 @@ def show(directory, with_faces):
     view.OrientationAxesVisibility = 0
     blocks = {name: open_block(directory, name)
               for name in ["cells", "faces", "critical_regions", "curves", "unresolved", "points",
-                           "vertices"]}
+                           "vertices", "labels"]}
     if with_faces and not blocks["faces"]:
         sys.exit("there are no faces: the result is not certified")
 
+    points = blocks["vertices"] if with_faces else blocks["points"]
+    crowded = points and points.GetDataInformation().GetNumberOfCells() > 150
     cells = blocks["cells"]
     bounds = cells.GetDataInformation().GetBounds()
     # Everything lies in the plane z = 0; seen from above, a little height keeps layers in order.
@@ -112,9 +131,8 @@ def show(directory, with_faces):
     if blocks["curves"]:
         display = Show(blocks["curves"], view)
         display.Position = [0.0, 0.0, 2 * layer]
-        display.LineWidth = 3.0
+        display.LineWidth = 1.5 if crowded else 3.0
         colour_by(display, "curve", names, CURVE_COLOURS)
-        display.SetScalarBarVisibility(view, True)
         bar = GetScalarBar(display.LookupTable, view)
         bar.Title, bar.ComponentTitle = "curve", ""
         bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
@@ -122,6 +140,7 @@ def show(directory, with_faces):
         bar.ScalarBarLength = 0.1
         bar.ScalarBarThickness = 10
         bar.TitleFontSize = bar.LabelFontSize = 12
+        display.SetScalarBarVisibility(view, len(names) <= 12)
     if blocks["unresolved"]:
         display = Show(blocks["unresolved"], view)
         display.Position = [0.0, 0.0, 3 * layer]
@@ -129,14 +148,16 @@ def show(directory, with_faces):
         display.LineWidth = 4.0
         display.ColorArrayName = [None, ""]
         display.AmbientColor = display.DiffuseColor = [0.76, 0.07, 0.12]
-    points = blocks["vertices"] if with_faces else blocks["points"]
     if points:
         display = Show(points, view)
         display.Position = [0.0, 0.0, 4 * layer]
         display.SetRepresentationType("Points")
-        display.PointSize = 9.0
+        display.PointSize = 4.0 if crowded else 9.0
         display.ColorArrayName = [None, ""]
         display.AmbientColor = display.DiffuseColor = [0.1, 0.1, 0.1]
+
+    if with_faces and not crowded:
+        show_labels(blocks["labels"], view, 5 * layer)
 
     ResetCamera(view)
     view.CameraParallelProjection = 1

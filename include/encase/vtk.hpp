@@ -9,7 +9,8 @@
 namespace encase {
 
 /// Writes an encasement for ParaView and other readers of VTK's XML files: `result.vtm` in the
-/// directory, with the blocks `cells`, `curves`, `points`, `critical_regions` and `unresolved` in
+/// directory, with the blocks `cells`, `curves`, `points`, `critical_regions`, `unresolved` and, of
+/// the arrangement where the answer is certified, `faces`, `edges`, `vertices` and `labels` in
 /// `result/*.vtp`; with `history` also `history.pvd`, the cells after each cut of the splitting
 /// history (at most 200 time steps, evenly chosen) in `history/*.vtp`. docs/vtk.md lists the
 /// arrays. Makes the directory if its parent exists. The .vtm and .pvd files appear when all they

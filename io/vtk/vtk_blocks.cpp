@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "2d/clearing.hpp"
 #include "2d/ear_cutting.hpp"
 #include "io/names.hpp"
 
@@ -260,6 +262,50 @@ vtkPolyData* fill_vertices(const VtkScene& scene, VtkTable* table) {
   return table->finish(e, true);
 }
 
+/// The point halfway along a polyline.
+Point<2> middle_of(const Polyline& line) {
+  const auto length = [&](std::size_t k) {
+    return std::hypot(line[k][0] - line[k - 1][0], line[k][1] - line[k - 1][1]);
+  };
+  double left = 0;
+  for (std::size_t k = 1; k < line.size(); ++k) left += 0.5 * length(k);
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const double here = length(k), part = here > 0 ? left / here : 0;
+    if (left <= here)
+      return {line[k - 1][0] + part * (line[k][0] - line[k - 1][0]),
+              line[k - 1][1] + part * (line[k][1] - line[k - 1][1])};
+    left -= here;
+  }
+  return line.back();
+}
+
+/// A point with a name for every face, where it is widest, every edge and every vertex.
+vtkPolyData* fill_labels(const VtkScene& scene, VtkTable* table) {
+  const Encasement& e = scene.encasement;
+  vtkIntArray* id = table->integers("id");
+  vtkIntArray* kind = table->integers("kind");
+  vtkStringArray* label = table->strings("label");
+  vtkIntArray* certified = table->integers("certified");
+  if (!scene.arrangement) return table->finish(e, true);
+  const auto put = [&](int of_kind, std::size_t k, const Point<2>& at) {
+    table->vertex(at);
+    id->InsertNextValue(static_cast<int>(k));
+    kind->InsertNextValue(of_kind);
+    label->InsertNextValue(("fev"[of_kind] + std::to_string(k)).c_str());
+    certified->InsertNextValue(1);
+  };
+  const Arrangement& a = *scene.arrangement;
+  const double precision = kTolerance * e.region_used.bounding_box().largest_width();
+  for (std::size_t k = 0; k < a.faces.size(); ++k) {
+    if (a.faces[k].outer < 0) continue;
+    const Clearing clearing = largest_clearing(boundaries(a, scene.edges, a.faces[k]), precision);
+    if (clearing.radius > 0) put(0, k, clearing.center);
+  }
+  for (std::size_t k = 0; k < a.edges.size(); ++k) put(1, k, middle_of(scene.edges[k]));
+  for (std::size_t k = 0; k < a.vertices.size(); ++k) put(2, k, a.vertices[k].point);
+  return table->finish(e, true);
+}
+
 /// The curves' components, from the edges along them.
 std::vector<std::pair<int, Polyline>> curves_along(const Arrangement& a,
                                                    const std::vector<Polyline>& edges) {
@@ -314,8 +360,8 @@ Result<VtkScene> make_vtk_scene(const Encasement& e) {
 
 vtkPolyData* fill_block(const VtkScene& scene, std::size_t block, VtkTable* table) {
   constexpr std::array<vtkPolyData* (*)(const VtkScene&, VtkTable*), kVtkBlocks.size()> kFill = {
-      fill_cells,      fill_curves, fill_points, fill_critical_regions,
-      fill_unresolved, fill_faces,  fill_edges,  fill_vertices};
+      fill_cells, fill_curves,   fill_points, fill_critical_regions, fill_unresolved, fill_faces,
+      fill_edges, fill_vertices, fill_labels};
   return kFill[block](scene, table);
 }
 

@@ -16,8 +16,9 @@
 /// The blocks of a result, docs/vtk.md.
 namespace encase {
 
-inline constexpr std::array<const char*, 8> kVtkBlocks = {
-    "cells", "curves", "points", "critical_regions", "unresolved", "faces", "edges", "vertices"};
+inline constexpr std::array<const char*, 9> kVtkBlocks = {
+    "cells", "curves",   "points", "critical_regions", "unresolved", "faces",
+    "edges", "vertices", "labels"};
 
 /// What the blocks show.
 struct VtkScene {

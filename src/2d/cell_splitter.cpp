@@ -156,9 +156,9 @@ bool CellSplitter::halve() {
 }
 
 std::vector<OpenCell> CellSplitter::hand_over() {
-  std::vector<OpenCell> cells = std::exchange(open_, {});
-  std::reverse(cells.begin(), cells.end());
-  return cells;
+  std::vector<OpenCell> handed_over = std::exchange(open_, {});
+  std::reverse(handed_over.begin(), handed_over.end());
+  return handed_over;
 }
 
 void CellSplitter::give_up() {

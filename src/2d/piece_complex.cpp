@@ -186,4 +186,23 @@ Result<PieceComplex> make_piece_complex(const Encasement& encasement,
   return Maker(encasement, arrangement, edges, std::move(cells).value()).run();
 }
 
+std::vector<Polyline> boundaries(const Arrangement& arrangement, const std::vector<Polyline>& edges,
+                                 const Arrangement::Face& face) {
+  std::vector<int> cycles = {face.outer};
+  cycles.insert(cycles.end(), face.holes.begin(), face.holes.end());
+  std::vector<Polyline> lines;
+  for (const int first : cycles) {
+    Polyline line;
+    for (const int h : arrangement.cycle(first)) {
+      const Polyline& edge = edges[Arrangement::edge_of(h)];
+      if (h % 2 == 0)
+        line.insert(line.end(), edge.begin(), edge.end());
+      else
+        line.insert(line.end(), edge.rbegin(), edge.rend());
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
 }  // namespace encase

@@ -24,4 +24,8 @@ Result<PieceComplex> make_piece_complex(const Encasement& encasement,
                                         const Arrangement& arrangement,
                                         const std::vector<Polyline>& edges);
 
+/// The closed polylines around a face (not the outside), the outer one first; `edges` as above.
+std::vector<Polyline> boundaries(const Arrangement& arrangement, const std::vector<Polyline>& edges,
+                                 const Arrangement::Face& face);
+
 }  // namespace encase

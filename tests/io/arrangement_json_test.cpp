@@ -201,6 +201,8 @@ TEST(ArrangementJson, NamesThePlaceOfAnError) {
               j["faces"][1]["outer"] = Json::array();
             }).rfind("r.json: arrangement.faces: half-edge ", 0),
             0u);
+  EXPECT_EQ(error_after([](Json& j) { j["faces"][2]["pieces"][0] = j["faces"][1]["pieces"][0]; }),
+            "r.json: arrangement.faces[2].pieces: a piece belongs to one face");
   EXPECT_EQ(error_after([](Json& j) { j["edges"][2]["side"] = 0; }),
             "r.json: arrangement.edges[2]: an edge is on a curve or on a side");
 }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "encase/arrangement.hpp"
-#include "io/svg_labels.hpp"
 #include "tests/encased.hpp"
 #include "tests/sample_encasements.hpp"
 
@@ -259,10 +258,6 @@ TEST(Svg, LabelsWhatHasRoom) {
   const Arrangement a = arrange(e).value();
   EXPECT_EQ(texts.size(), found.size());
   EXPECT_EQ(found.size(), a.faces.size() - 1 + a.edges.size() + a.vertices.size());
-  for (std::size_t i = 0; i < found.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      EXPECT_GT(std::max(std::fabs(found[i].x - found[j].x), std::fabs(found[i].y - found[j].y)), 6)
-          << found[i].text << " on " << found[j].text;
   // Faces are labelled inside.
   const PointLocator locator(e, a);
   for (const Label& label : found)
@@ -278,20 +273,18 @@ TEST(Svg, LabelsWhatHasRoom) {
   EXPECT_LT(labels(to_svg(e, options)).size(), found.size());
 }
 
-TEST(Svg, FindsTheWidestPlaceOfARegion) {
-  const std::vector<Point<2>> square = {{0, 0}, {100, 0}, {100, 100}, {0, 100}};
-  Clearing clearing = largest_clearing({square});
-  EXPECT_NEAR(clearing.radius, 50, 1);
-  EXPECT_NEAR(clearing.center[0], 50, 1);
-  // A hole in the middle: the corners have the most room, 20 / (1 + 1 / sqrt 2).
-  clearing = largest_clearing({square, {{20, 20}, {80, 20}, {80, 80}, {20, 80}}});
-  EXPECT_GT(clearing.radius, 10);
-  EXPECT_LT(clearing.radius, 12.5);
-  // A corridor with a room at its end.
-  clearing = largest_clearing({{{0, 0}, {300, 0}, {300, 4}, {30, 4}, {30, 30}, {0, 30}}});
-  EXPECT_NEAR(clearing.center[0], 15, 2);
-  EXPECT_NEAR(clearing.center[1], 15, 2);
-  EXPECT_NEAR(clearing.radius, 15, 1);
+TEST(Svg, LabelsDoNotOverlap) {
+  SvgOptions options = bare();
+  options.labels = true;
+  for (const int size : {50, 100, 200, 400}) {
+    options.size = size;
+    const std::vector<Label> found = labels(to_svg(sample::circle_and_line(), options));
+    for (std::size_t i = 0; i < found.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_GT(std::max(std::fabs(found[i].x - found[j].x), std::fabs(found[i].y - found[j].y)),
+                  6)
+            << found[i].text << " on " << found[j].text << " at size " << size;
+  }
 }
 
 TEST(Svg, MarksRoundCoordinates) {

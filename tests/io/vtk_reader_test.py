@@ -21,7 +21,7 @@ except ImportError as error:
     sys.exit(77)
 
 BLOCKS = ["cells", "curves", "points", "critical_regions", "unresolved", "faces", "edges",
-          "vertices"]
+          "vertices", "labels"]
 
 
 def expect(condition, message):
@@ -163,7 +163,7 @@ def check_arrangement(blocks, result):
     arrangement = result.get("arrangement")
     expect_equal(arrangement is not None, result["status"] == "certified", "arrangement")
     if arrangement is None:
-        for data in faces, edges, vertices:
+        for data in faces, edges, vertices, blocks["labels"]:
             expect_equal(data.GetNumberOfCells(), 0, "parts of an unknown arrangement")
         return
 
@@ -178,6 +178,11 @@ def check_arrangement(blocks, result):
         expect_equal(vertices.GetPoint(k)[:2], (vertex["x"], vertex["y"]), "vertex")
     expect_equal(column(vertices.GetPointData(), "kind_name"),
                  [vertex["kind"] for vertex in arrangement["vertices"]], "kinds of vertices")
+
+    labels = set(column(blocks["labels"].GetPointData(), "label"))
+    parts = {f"{key[0]}{k}" for key in ["edges", "vertices"] for k in range(len(arrangement[key]))}
+    faces_labelled = {f"f{face['id']}" for face in arrangement["faces"] if face["signs"]}
+    expect(parts <= labels <= parts | faces_labelled, "labels")
 
     of_faces = faces.GetCellData()
     pieces = column(of_faces, "piece")

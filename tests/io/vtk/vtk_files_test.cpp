@@ -180,11 +180,39 @@ TEST_F(VtkFiles, HoldEdgesAndVertices) {
   EXPECT_EQ(string(vertices->GetPointData(), "curve_name", 7), "circle, line");
 }
 
+TEST_F(VtkFiles, HoldALabelForEveryPart) {
+  const Encasement e = sample::circle_and_line();
+  const Arrangement a = arrange(e).value();
+  const PointLocator locator(e, a);
+  ASSERT_FALSE(write_vtk(e, path("out")));
+  vtkPolyData* labels = read("out/result/labels.vtp");
+  const auto parts = a.faces.size() - 1 + a.edges.size() + a.vertices.size();
+  ASSERT_EQ(labels->GetNumberOfVerts(), static_cast<vtkIdType>(parts));
+  std::set<std::string> names;
+  for (int k = 0; k < static_cast<int>(parts); ++k) {
+    const int id = integer(labels->GetPointData(), "id", k);
+    const int kind = integer(labels->GetPointData(), "kind", k);
+    const std::string name = string(labels->GetPointData(), "label", k);
+    EXPECT_EQ(name, std::string(1, "fev"[kind]) + std::to_string(id));
+    names.insert(name);
+    double at[3];
+    labels->GetPoint(k, at);
+    if (kind == 0) {
+      EXPECT_EQ(locator.locate(Point<2>{at[0], at[1]}),
+                (Arrangement::Feature{Arrangement::Feature::Kind::Face, id}));
+    }
+    if (kind == 1 && a.edges[id].curve == 0) {
+      EXPECT_NEAR(std::hypot(at[0], at[1]), std::sqrt(0.5), 1e-3);
+    }
+  }
+  EXPECT_EQ(names.size(), parts);
+}
+
 TEST_F(VtkFiles, HaveNoFacesWhereTheAnswerIsNotCertified) {
   Encasement e = sample::circle_and_line();
   e.outcome = Outcome::Undecided;
   ASSERT_FALSE(write_vtk(e, path("out")));
-  for (const char* name : {"faces", "edges", "vertices"})
+  for (const char* name : {"faces", "edges", "vertices", "labels"})
     EXPECT_EQ(read("out/result/" + std::string(name) + ".vtp")->GetNumberOfCells(), 0) << name;
   EXPECT_EQ(read("out/result/curves.vtp")->GetNumberOfLines(), 2);
 }
