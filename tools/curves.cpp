@@ -106,7 +106,7 @@ struct Answer {
   const Arrangement* arranged() const { return arrangement ? &*arrangement : nullptr; }
 };
 
-Result<Answer> answer(Encasement encasement) {
+Result<Answer> with_arrangement(Encasement encasement) {
   Answer answer{std::move(encasement), std::nullopt};
   if (answer.encasement.outcome != Outcome::Certified) return answer;
   Result<Arrangement> arranged = arrange(answer.encasement);
@@ -162,7 +162,7 @@ ExitCode run_curves(CurvesRequest request) {
   auto result = encase(input.value().curves, input.value().region, request.options);
   progress.reset();
   if (!result) return fail(result.error());
-  const auto answered = answer(std::move(result).value());
+  const auto answered = with_arrangement(std::move(result).value());
   if (!answered) return fail(answered.error());
 
   if (const Status status = write_files(request, answered.value())) return fail(*status);
