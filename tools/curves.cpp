@@ -133,7 +133,7 @@ struct Answer {
   const Arrangement* arranged() const { return arrangement ? &*arrangement : nullptr; }
 };
 
-Result<Answer> answer(Encasement encasement) {
+Result<Answer> with_arrangement(Encasement encasement) {
   Answer answer{std::move(encasement), std::nullopt};
   if (answer.encasement.outcome != Outcome::Certified) return answer;
   Result<Arrangement> arranged = arrange(answer.encasement);
@@ -205,7 +205,8 @@ ExitCode run_curves(CurvesRequest request) {
   auto result = earlier ? add_curves(*earlier, curves, request.options)
                         : encase(curves, region, request.options);
   progress->begin("writing the result");
-  const auto answered = result ? answer(std::move(result).value()) : Result<Answer>(result.error());
+  const auto answered =
+      result ? with_arrangement(std::move(result).value()) : Result<Answer>(result.error());
   Status status = answered ? write_files(request, answered.value()) : Status(answered.error());
   if (!status) status = write_report(request, answered.value(), progress);
   progress.reset();

@@ -26,8 +26,8 @@ struct Arrangement {
     Kind kind = Kind::Corner;
     int index = -1;
     int half_edge = -1;  ///< one that begins here
-    /// The crossing's `point`, the corner rounded to nearest, or where the curve meets the
-    /// boundary, within about 2^-50 of the region's largest coordinate.
+    /// The crossing's `point`; the corner, rounded to nearest; or where the curve meets a side: the
+    /// parameter of the side's line rounded to nearest, and then the point of the line there.
     Point<2> point{};
     bool operator==(const Vertex&) const = default;
   };
@@ -143,10 +143,16 @@ struct Arrangement {
   bool operator==(const Arrangement&) const = default;
 };
 
+struct ArrangeOptions {
+  /// Round the points where curves meet the region's boundary, which takes a part of the time; else
+  /// these are zero.
+  bool boundary_points = true;
+};
+
 /// The arrangement of an encasement's curves. Degenerate or Undecided if the encasement is;
 /// Internal if its parts do not fit together, as in one that `verify` objects to. Cost: about that
 /// of reading the encasement.
-Result<Arrangement> arrange(const Encasement& encasement);
+Result<Arrangement> arrange(const Encasement& encasement, const ArrangeOptions& options = {});
 
 /// What contradicts the rules of a planar subdivision, in a sentence; empty if nothing does. The
 /// rules: half-edges, cycles and faces agree, a crossing's four edges alternate between its curves,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,34 +31,39 @@ struct StrandEnd {
   int end = 0;
 };
 
-/// Where curves meet the region's boundary, in doubles.
+/// Where curves meet the region's boundary, in doubles that do not depend on how they are found.
 class BoundaryPoints {
  public:
   explicit BoundaryPoints(const Encasement& encasement)
-      : e_(encasement), polynomials_(encasement.curves.size()) {
-    double size = 0;
-    for (const RationalPoint<2>& corner : e_.region_used.corners)
-      for (const Rational& c : corner) size = std::max(size, std::fabs(nearest_double(c)));
-    width_ = 0x1p-50 * size;
-  }
+      : e_(encasement), polynomials_(encasement.curves.size()) {}
 
-  /// In the middle of the interval, made as narrow as doubles can tell.
   Point<2> of(const LineCrossing& crossing) {
     auto& f = polynomials_[crossing.curve];
     if (!f) f.emplace(e_.curves[crossing.curve].polynomial);
     const Line& line = e_.lines[crossing.line];
-    RootInterval root{crossing.lo, crossing.hi};
-    constexpr int kMost = 1200;  // halvings from the largest double to the smallest one
-    for (int k = 0; k < kMost && root.hi - root.lo > width_; ++k)
-      if (!refine_on_line(*f, line, &root, kernel_)) break;
-    const auto point = point_on_line(line, Interval(root.lo + 0.5 * (root.hi - root.lo)));
-    return {point[0].mid(), point[1].mid()};
+    const auto at = point_on_line(line, Rational(parameter(*f, line, crossing)));
+    return {nearest_double(at[0]), nearest_double(at[1])};
   }
 
  private:
+  /// The root's parameter rounded to nearest, ties to even.
+  double parameter(const FilteredPolynomial<2>& f, const Line& line, const LineCrossing& crossing) {
+    RootInterval root{crossing.lo, crossing.hi};
+    // Around zero halving would take as long as doubles get smaller.
+    if (root.lo < 0 && root.hi > 0 && !narrow_on_line(f, line, 0, &root, kernel_)) return 0;
+    while (refine_on_line(f, line, &root, kernel_)) continue;
+    // What is left has no double inside but perhaps the root itself.
+    const auto middle = [&] { return root.lo + 0.5 * (root.hi - root.lo); };
+    for (double at = middle(); root.lo < at && at < root.hi; at = middle())
+      if (!narrow_on_line(f, line, at, &root, kernel_)) return at;
+    const Rational half = (Rational(root.lo) + Rational(root.hi)) / 2;
+    const Sign here = f.sign_at(point_on_line(line, half), kernel_);
+    if (here == Sign::Zero) return nearest_double(half);
+    return here == sign_on_line(f, line, root.lo, kernel_) ? root.hi : root.lo;
+  }
+
   const Encasement& e_;
   std::vector<std::optional<FilteredPolynomial<2>>> polynomials_;
-  double width_ = 0;
   Kernel kernel_;
 };
 
@@ -82,8 +86,11 @@ struct Bundle {
 
 class Builder {
  public:
-  Builder(const Encasement& encasement, CellParts parts)
-      : e_(encasement), parts_(std::move(parts)), sides_(e_.region_used.side_count()) {}
+  Builder(const Encasement& encasement, CellParts parts, const ArrangeOptions& options)
+      : e_(encasement),
+        parts_(std::move(parts)),
+        options_(options),
+        sides_(e_.region_used.side_count()) {}
 
   Result<Arrangement> run() {
     make_vertices();
@@ -118,7 +125,8 @@ class Builder {
     for (int k = 0; k < sides_; ++k)
       for (const int c : parts_.on_line[k])
         vertex_at_line_crossing_[c] =
-            add_vertex(Arrangement::Vertex::Kind::OnBoundary, c, points.of(e_.line_crossings[c]));
+            add_vertex(Arrangement::Vertex::Kind::OnBoundary, c,
+                       options_.boundary_points ? points.of(e_.line_crossings[c]) : Point<2>{});
     vertex_in_cell_.assign(e_.cells.size(), -1);
     for (std::size_t k = 0; k < e_.cells.size(); ++k)
       if (const int c = e_.cells[k].crossing; c >= 0)
@@ -308,6 +316,7 @@ class Builder {
 
   const Encasement& e_;
   CellParts parts_;
+  ArrangeOptions options_;
   int sides_;
   Arrangement a_;
   std::vector<int> vertex_at_line_crossing_;  ///< -1 inside the region
@@ -321,7 +330,7 @@ class Builder {
 
 }  // namespace
 
-Result<Arrangement> arrange(const Encasement& encasement) {
+Result<Arrangement> arrange(const Encasement& encasement, const ArrangeOptions& options) {
   if (encasement.outcome == Outcome::Degenerate)
     return Error{Error::Code::Degenerate,
                  "the encasement is degenerate: its list of degenerate places says why its "
@@ -335,7 +344,7 @@ Result<Arrangement> arrange(const Encasement& encasement) {
                  "the encasement is undecided: with larger budgets its arrangement may be known"};
   Result<CellParts> parts = make_cell_parts(encasement);
   if (!parts) return parts.error();
-  return Builder(encasement, std::move(parts).value()).run();
+  return Builder(encasement, std::move(parts).value(), options).run();
 }
 
 std::vector<int> Arrangement::around(int vertex) const {

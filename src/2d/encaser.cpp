@@ -279,7 +279,7 @@ void Encaser::give_up_on_region() {
     cell.vertices.push_back(meet(partition_->lines[(k + n - 1) % n], partition_->lines[k]));
     cell.edges.push_back({k, false, {}});
   }
-  const SplittingTask task{options_, bounds_, result_.undecided, {}, {}};
+  const SplittingTask task{options_, earlier_, bounds_, result_.undecided, {}, {}};
   CellSplitter splitter(*partition_, task);
   splitter.add(std::move(cell));
   splitter.give_up();

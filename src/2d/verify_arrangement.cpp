@@ -10,7 +10,7 @@ namespace encase {
 namespace verification {
 
 void check_arrangement(Claims& claims) {
-  const Result<Arrangement> arranged = arrange(claims.result);
+  const Result<Arrangement> arranged = arrange(claims.result, {false});
   if (!claims.require(arranged.ok(), "The result has no arrangement",
                       arranged ? std::string() : ": " + arranged.error().message + "."))
     return;

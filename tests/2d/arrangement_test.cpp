@@ -563,5 +563,40 @@ TEST(CheckArrangement, ObjectsToWhatIsWrong) {
   EXPECT_TRUE(wrong([](Arrangement& a) { a.edges[0].curve = 2 - a.edges[0].curve; }));
 }
 
+TEST(Arrangement, RoundsTheEndsOfCurvesOnTheBoundary) {
+  // Ends at thirds, at doubles, at irrational numbers and at zero.
+  const Encasement e =
+      run({"y - 3 x", "x + y^3 - 1/2", "y - (x + 1) / 2"}, rectangle(-1, 2, -1, 1));
+  const Arrangement a = arranged(e);
+  int ends = 0;
+  for (const Arrangement::Vertex& v : a.vertices) {
+    if (v.kind != Arrangement::Vertex::Kind::OnBoundary) continue;
+    ++ends;
+    const LineCrossing& c = e.line_crossings[v.index];
+    const Line& line = e.lines[c.line];
+    const int axis = parameter_axis(line);
+    const Polynomial<2>& f = e.curves[c.curve].polynomial;
+    EXPECT_GE(v.point[axis], c.lo);
+    EXPECT_LE(v.point[axis], c.hi);
+    // The root lies between the points halfway to the neighbours.
+    const Rational at(v.point[axis]);
+    const auto halfway = [&](double to) {
+      return exact_sign(
+          f, point_on_line(line, (at + Rational(std::nextafter(v.point[axis], to))) / 2));
+    };
+    const Sign here = exact_sign(f, point_on_line(line, at));
+    EXPECT_TRUE(here == Sign::Zero || halfway(-9) != halfway(9)) << v.index;
+    EXPECT_EQ(exactly(v.point), point_on_line(line, at));
+  }
+  EXPECT_GE(ends, 5);
+  Arrangement without = arrange(e, {false}).value();
+  for (std::size_t v = 0; v < a.vertices.size(); ++v)
+    if (a.vertices[v].kind == Arrangement::Vertex::Kind::OnBoundary) {
+      EXPECT_EQ(without.vertices[v].point, (Point<2>{}));
+      without.vertices[v].point = a.vertices[v].point;
+    }
+  EXPECT_EQ(without, a);
+}
+
 }  // namespace
 }  // namespace encase
