@@ -210,6 +210,10 @@ void expect_faces(const Encasement& e, const Arrangement& a, const Tracing& trac
       EXPECT_EQ(cycle.front(), cycle.back());
       const bool outer = k == 0 && f != a.outside;
       EXPECT_EQ(area(cycle) > 0, outer);
+      for (std::size_t j = 0; j < boundaries[f].size() && !outer; ++j)
+        if (j != k) {
+          EXPECT_EQ(is_inside(cycle.front(), {boundaries[f][j]}), j == 0 && f != a.outside);
+        }
       if (f != a.outside) sum += area(cycle);
     }
   }
@@ -349,6 +353,15 @@ TEST(Trace, KeepsDotsInsideThatAChordWouldLeaveOutside) {
                                     Rational(0.49 * std::sin(angle)), Rational(1, 1000000))});
   }
   expect_traced(encased::run_curves(curves), 0.1);
+}
+
+TEST(Trace, KeepsTheSidesOfALens) {
+  // Between two crossings one of two curves bends so little more than the other that its chord is
+  // beyond it. The factor has no zeros; it only makes the second curve's pieces shorter.
+  const Encasement e = run({"y - x^2",
+                            "(y - x^2 - (1/4 - x^2)/1000)*"
+                            "((x - 1/10)^2 + (y - 1/5)^2 + 1/50)"});
+  expect_traced(e, std::numeric_limits<double>::infinity());
 }
 
 TEST(Trace, LeavesAFlatCrossingInTheRightOrder) {
