@@ -59,10 +59,10 @@ struct TraceOptions {
   bool check_topology = true;  ///< false: conflicts are not looked for
 };
 
-/// Traces all edges. Where doubles do not allow the tolerance (a unit in the last place of the
-/// largest coordinate times 2^7), the pieces have the distance that they allow. BadInput if the
-/// tolerance is not a positive number. Deterministic. Cost: some microseconds a point; about
-/// length / sqrt(8 tolerance x radius of curvature) points.
+/// Traces all edges. Below 2^-46 of the largest coordinate of the region doubles do not allow more:
+/// pieces then have about that distance. BadInput if the tolerance is not a positive number.
+/// Deterministic. Cost: some microseconds a point; an arc needs about length / sqrt(8 tolerance
+/// radius) of them.
 Result<Tracing> trace(const Encasement& encasement, const Arrangement& arrangement,
                       const TraceOptions& options = {});
 

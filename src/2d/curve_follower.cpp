@@ -74,6 +74,7 @@ CurvePath CurveFollower::follow(const CurvePoint& from, const CurvePoint& to, in
   const double least = 0x1p-48 * size_;
   while (static_cast<int>(path.pieces.size()) + 1 < most && length >= least) {
     const CurvePoint at = path.points.back();
+    if (!f_.box().contains(at.point)) break;  // the end is in the region
     const auto accept = [&](const Attempt& attempt) {
       if (!attempt.proved || attempt.piece.distance > goal) return false;
       path.points.push_back(attempt.to);

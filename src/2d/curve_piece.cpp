@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <limits>
+#include <optional>
 
 #include "common/interval.hpp"
 
 namespace encase {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the roundings of the sums it multiplies
 constexpr double kUnderflow = 0x1p-900;
+constexpr double kReach = 1 + 0x1p-11;   // of a tile, with room for roundings
 constexpr double kChordError = 0x1p-47;  // of alpha + beta s, see docs/tracing.md
 
 /// The relative error after so many roundings.
@@ -147,134 +145,173 @@ struct PieceProver::Question {
   Point<2> half;  ///< of both ends with their boxes, around the centre
 };
 
-PieceProver::Fit PieceProver::try_with(const Tile& tile, const Question& q,
-                                       Attempt* attempt) const {
-  *attempt = {};
-  attempt->factor = 0.5;
-  attempt->to = q.to;
-  if (tile.degree < 1) return Fit::Noisy;
-  const int u = q.axis, v = 1 - q.axis, m = tile.degree;
-  Point<2> o, part;  // in the tile's coordinates: the centre, and the half widths
-  for (int k = 0; k < 2; ++k) o[k] = (q.center[k] - tile.center[k]) / tile.half[k];
-  if (!(std::fabs(o[0]) <= 1 + 0x1p-11) || !(std::fabs(o[1]) <= 1 + 0x1p-11)) return Fit::Outside;
-  Expansion e;
-  shift(tile, o, u, &e);
+/// One attempt with one tile. Its steps fill in `attempt`.
+class PieceProver::Trial {
+ public:
+  Trial(const TiledPolynomial& f, const Tile& tile, const Question& question, Attempt* attempt)
+      : f_(f),
+        tile_(tile),
+        q_(question),
+        u_(question.axis),
+        v_(1 - question.axis),
+        attempt_(*attempt),
+        tube_(attempt->tube),
+        to_(attempt->to) {
+    *attempt = {};
+    attempt->factor = 0.5;
+    to_ = q_.to;
+    tube_.axis = u_;
+    tube_.center = q_.center;
+  }
 
-  // A rectangle with room for what the curve bends.
-  Tube& tube = attempt->tube;
-  tube.axis = u;
-  tube.center = q.center;
-  const double du = 0.5 * (q.to.point[u] - q.from.point[u]) / tile.half[u];
-  const double dv = 0.5 * (q.to.point[v] - q.from.point[v]) / tile.half[v];
-  const double bend = m < 2 ? 0 : e.c[2][0] * du * du + (e.c[1][1] * du + e.c[0][2] * dv) * dv;
-  const double lost = roundings(5 * m + 8);
-  const double error = (tile.error + lost * tile.sum) * kUp + kUnderflow;
-  const double noise = error / std::fabs(e.c[0][1]) * tile.half[v];
-  const double room = 3 * (std::fabs(bend / e.c[0][1]) * tile.half[v] + noise);
-  if (room > 4 * std::max(q.half[u], q.half[v])) {
-    if (getenv("TR2") && noise > room / 6)
-      fprintf(stderr,
-              "NOISYROOM  tile half %g bits %d error %g (tile %g sum %g)  noise %g goal %g half %g "
-              "%g room %g\n",
-              tile.half[0], tile.bits, error, tile.error, tile.sum, noise, q.goal, q.half[0],
-              q.half[1], room);
-    return noise > room / 6 ? Fit::Noisy : Fit::Good;
-  }
-  tube.half[u] = q.half[u] * (1 + 0x1p-6);
-  tube.half[v] = q.half[v] * (1 + 0x1p-6) + (std::isfinite(room) ? room : 0) + 0x1p-10 * q.half[u];
-  for (int k = 0; k < 2; ++k) {
-    part[k] = tube.half[k] / tile.half[k];
-    if (!(std::fabs(o[k]) + part[k] <= 1 + 0x1p-11)) return Fit::Outside;
-  }
-  if (!inside(q.from.box, tube.center, tube.half) || !inside(q.to.box, tube.center, tube.half))
-    return Fit::Good;
-  scale({part[u], part[v]}, &e);
-  const Sums sums = sums_of(e);
-  const double slope_error = part[v] * (tile.slope_error + lost * tile.slope) * kUp + kUnderflow;
-  const double steepness = std::fabs(e.c[0][1]);
-  // Where the coefficients alone forbid a proof, it does not matter how precise they are.
-  Fit fit = slope_error <= 0.125 * std::max(steepness, sums.slope) ? Fit::Good : Fit::Noisy;
-  if (!(steepness > sums.slope)) {
-    attempt->factor = clamped(0.8 * steepness / sums.slope, 0.1, 0.6);
-    if (getenv("TR2") && (fit == Fit::Noisy))
-      fprintf(stderr,
-              "NOISYCOARSE  tile half %g bits %d error %g (tile %g sum %g) steep %g slope %g "
-              "slope_error %g noise %g goal %g half %g %g room %g sumsall %g\n",
-              tile.half[0], tile.bits, error, tile.error, tile.sum, steepness, sums.slope,
-              slope_error, noise, q.goal, q.half[0], q.half[1], room, sums.all);
+  Fit run() {
+    if (tile_.degree < 1) return Fit::Noisy;
+    if (const std::optional<Fit> misfit = expand()) return *misfit;
+    const Fit fit = weigh();
+    if (least_slope_ > 0 && lay_line() && (!q_.free || enclose_end()) && runs_right()) conclude();
     return fit;
   }
-  if (!(noise <= 0.125 * std::min(q.goal, q.half[u]))) fit = Fit::Noisy;
 
-  if (getenv("TR2") && (fit == Fit::Noisy))
-    fprintf(stderr,
-            "NOISY  tile half %g bits %d error %g (tile %g sum %g) steep %g slope %g slope_error "
-            "%g noise %g goal %g half %g %g room %g sumsall %g\n",
-            tile.half[0], tile.bits, error, tile.error, tile.sum, steepness, sums.slope,
-            slope_error, noise, q.goal, q.half[0], q.half[1], room, sums.all);
-  // The curve is a graph if it has points at all.
-  const double least_slope =
-      (steepness - sums.slope - slope_error) * (1 - 0x1p-40) - roundings(8) * sums.all;
-  if (!(least_slope > 0)) return fit;
-  // It is beside the chord.
-  Point<2> from = q.from.point;
-  CurvePoint& to = attempt->to;
-  double s[2], t[2], value = 0;
-  for (const int end : {0, 1}) {
-    Point<2>& p = end == 0 ? from : to.point;
-    s[end] = (p[u] - tube.center[u]) / tube.half[u];
-    t[end] = (p[v] - tube.center[v]) / tube.half[v];
-    if (end == 0 || !q.free) continue;
-    // To where this tile sees the curve, and then to where it is.
-    constexpr int kIterations = 2;
-    for (int k = 0; k < kIterations; ++k) t[1] -= value_at(e, s[1], t[1]) / e.c[0][1];
-    p[v] = tube.center[v] + t[1] * tube.half[v];
-    value = f_.value(p);
-    const double change = value / e.c[0][1] * tube.half[v];
-    if (std::fabs(change) > 0x1p-50 * std::fabs(p[v]) && std::fabs(change) < tube.half[v]) {
-      p[v] -= change;
-      value = f_.value(p);
+ private:
+  /// The polynomial in a rectangle with room for what the curve bends; nothing if that is done.
+  std::optional<Fit> expand() {
+    Point<2> o, part;  // in the tile's coordinates: the centre, and the half widths
+    for (int k = 0; k < 2; ++k) {
+      o[k] = (q_.center[k] - tile_.center[k]) / tile_.half[k];
+      if (!(std::fabs(o[k]) <= kReach)) return Fit::Outside;
     }
-    t[1] = (p[v] - tube.center[v]) / tube.half[v];
+    shift(tile_, o, u_, &e_);
+    const double du = 0.5 * (q_.to.point[u_] - q_.from.point[u_]) / tile_.half[u_];
+    const double dv = 0.5 * (q_.to.point[v_] - q_.from.point[v_]) / tile_.half[v_];
+    const auto& c = e_.c;
+    double bend = 0, power = du * du;
+    if (e_.degree >= 2) bend = std::fabs(c[2][0] * power + (c[1][1] * du + c[0][2] * dv) * dv);
+    for (int i = 3; i <= e_.degree; ++i) bend += std::fabs(c[i][0] * (power *= du));
+    lost_ = roundings(5 * e_.degree + 8);
+    error_ = (tile_.error + lost_ * tile_.sum) * kUp + kUnderflow;
+    const double across = tile_.half[v_] / std::fabs(c[0][1]);
+    noise_ = error_ * across;
+    const double room = 3 * (bend * across + noise_);
+    if (!(room <= 4 * std::max(q_.half[u_], q_.half[v_])))
+      return noise_ > bend * across ? Fit::Noisy : Fit::Good;
+    tube_.half[u_] = q_.half[u_] * (1 + 0x1p-6);
+    tube_.half[v_] = q_.half[v_] * (1 + 0x1p-6) + room + 0x1p-10 * q_.half[u_];
+    for (int k = 0; k < 2; ++k) {
+      part[k] = tube_.half[k] / tile_.half[k];
+      if (!(std::fabs(o[k]) + part[k] <= kReach)) return Fit::Outside;
+    }
+    if (!inside(q_.from.box, tube_.center, tube_.half) ||
+        !inside(q_.to.box, tube_.center, tube_.half))
+      return Fit::Good;
+    scale({part[u_], part[v_]}, &e_);
+    slope_error_ = part[v_] * (tile_.slope_error + lost_ * tile_.slope) * kUp + kUnderflow;
+    return std::nullopt;
   }
-  if (!(std::fabs(s[1] - s[0]) >= 1)) return fit;
-  tube.beta = (t[1] - t[0]) / (s[1] - s[0]);
-  tube.alpha = t[0] - tube.beta * s[0];
-  const double largest = (largest_on_line(e, tube.alpha, tube.beta) + sums.high + error) * kUp +
-                         roundings(64) * sums.all;
-  tube.delta = largest / least_slope * kUp + kChordError;
-  if (!(std::fabs(tube.alpha) + std::fabs(tube.beta) + tube.delta <= 1 - 0x1p-40)) return fit;
 
-  // The end's box, if it has none.
-  if (q.free) {
-    const double residue = (std::fabs(value) * (1 + 0x1p-51) + tile.value_error) * kUp;
-    const double away = residue / least_slope * kUp;
-    if (!(std::fabs(t[1]) + away <= 1 - 0x1p-40)) return fit;
-    const double reach = away * tube.half[v] * kUp;
-    to.box = {to.point, to.point};
-    to.box.lo[v] = round_down(to.point[v] - reach);
-    to.box.hi[v] = round_up(to.point[v] + reach);
+  /// How steep the polynomial is across the axis, at least, and whether the tile's errors matter.
+  Fit weigh() {
+    sums_ = sums_of(e_);
+    const double steepness = std::fabs(e_.c[0][1]);
+    least_slope_ =
+        (steepness - sums_.slope - slope_error_) * (1 - 0x1p-40) - roundings(8) * sums_.all;
+    // Where the coefficients alone forbid a proof, it does not matter how precise they are.
+    const bool coarse = !(steepness > sums_.slope);
+    if (coarse) attempt_.factor = clamped(0.8 * steepness / sums_.slope, 0.1, 0.6);
+    const bool precise = slope_error_ <= 0.125 * std::max(steepness, sums_.slope) &&
+                         (coarse || noise_ <= 0.125 * std::min(q_.goal, q_.half[u_]));
+    return precise ? Fit::Good : Fit::Noisy;
   }
 
-  // In the right direction: positive values are to the left of (f_y, -f_x).
-  const bool grows = q.from.point[u] < q.to.point[u];
-  const bool slope_positive = e.c[0][1] > 0;
-  const bool left = u == 0 ? grows == slope_positive : grows != slope_positive;
-  const bool apart = grows ? q.from.box.hi[u] < to.box.lo[u] : to.box.hi[u] < q.from.box.lo[u];
-  if (left != (q.direction > 0) || !apart) return fit;
+  /// The line through the ends, and how far the curve is from it at most. An end that is free is
+  /// moved to where the curve is.
+  bool lay_line() {
+    for (const int end : {0, 1}) {
+      const Point<2>& p = (end == 0 ? q_.from : to_).point;
+      s_[end] = (p[u_] - tube_.center[u_]) / tube_.half[u_];
+      t_[end] = (p[v_] - tube_.center[v_]) / tube_.half[v_];
+    }
+    if (q_.free) move_end();
+    if (!(std::fabs(s_[1] - s_[0]) >= 1)) return false;
+    tube_.beta = (t_[1] - t_[0]) / (s_[1] - s_[0]);
+    tube_.alpha = t_[0] - tube_.beta * s_[0];
+    const double largest =
+        (largest_on_line(e_, tube_.alpha, tube_.beta) + sums_.high + error_) * kUp +
+        roundings(64) * sums_.all;
+    tube_.delta = largest / least_slope_ * kUp + kChordError;
+    return std::fabs(tube_.alpha) + std::fabs(tube_.beta) + tube_.delta <= 1 - 0x1p-40;
+  }
 
-  double slack = 0;
-  for (const CurvePoint* p : {&q.from, static_cast<const CurvePoint*>(&to)})
-    slack = std::max({slack, p->box.hi[u] - p->point[u], p->point[u] - p->box.lo[u]});
-  const Box<2> ends = hull(q.from.box, to.box);
-  tube.from = (ends.lo[u] - tube.center[u]) / tube.half[u];
-  tube.to = (ends.hi[u] - tube.center[u]) / tube.half[u];
-  const double incline = std::fabs(tube.beta) * tube.half[v] / tube.half[u];
-  attempt->proved = true;
-  attempt->piece = {u, q.direction,
-                    (tube.delta * tube.half[v] + (1 + incline) * slack) * kUp + kUnderflow};
-  attempt->factor = clamped(0.9 * std::sqrt(q.goal / attempt->piece.distance), 0.1, 3);
-  return fit;
+  /// To where the tile sees the curve, and then to where it is.
+  void move_end() {
+    constexpr int kIterations = 2;
+    for (int k = 0; k < kIterations; ++k) t_[1] -= value_at(e_, s_[1], t_[1]) / e_.c[0][1];
+    double& across = to_.point[v_];
+    across = tube_.center[v_] + t_[1] * tube_.half[v_];
+    value_ = f_.value(to_.point);
+    const double change = value_ / e_.c[0][1] * tube_.half[v_];
+    if (std::fabs(change) > 0x1p-50 * std::fabs(across) && std::fabs(change) < tube_.half[v_]) {
+      across -= change;
+      value_ = f_.value(to_.point);
+    }
+    t_[1] = (across - tube_.center[v_]) / tube_.half[v_];
+  }
+
+  /// Gives an end that is free its box, a segment across the axis.
+  bool enclose_end() {
+    const double residue = (std::fabs(value_) * (1 + 0x1p-51) + tile_.value_error) * kUp;
+    const double away = residue / least_slope_ * kUp;
+    if (!(std::fabs(t_[1]) + away <= 1 - 0x1p-40)) return false;
+    const double reach = away * tube_.half[v_] * kUp + kUnderflow;
+    to_.box = {to_.point, to_.point};
+    to_.box.lo[v_] = round_down(to_.point[v_] - reach);
+    to_.box.hi[v_] = round_up(to_.point[v_] + reach);
+    return true;
+  }
+
+  /// In the direction asked, from one end's box to the other. Positive values are to the left of
+  /// (f_y, -f_x).
+  bool runs_right() const {
+    const bool grows = q_.from.point[u_] < q_.to.point[u_];
+    const bool left = (e_.c[0][1] > 0) == (grows == (u_ == 0));
+    const bool apart =
+        grows ? q_.from.box.hi[u_] < to_.box.lo[u_] : to_.box.hi[u_] < q_.from.box.lo[u_];
+    return apart && left == (q_.direction > 0);
+  }
+
+  void conclude() {
+    double slack = 0;
+    for (const CurvePoint* p : {&q_.from, static_cast<const CurvePoint*>(&to_)})
+      slack = std::max({slack, p->box.hi[u_] - p->point[u_], p->point[u_] - p->box.lo[u_]});
+    const Box<2> ends = hull(q_.from.box, to_.box);
+    tube_.from = (ends.lo[u_] - tube_.center[u_]) / tube_.half[u_];
+    tube_.to = (ends.hi[u_] - tube_.center[u_]) / tube_.half[u_];
+    const double incline = std::fabs(tube_.beta) * tube_.half[v_] / tube_.half[u_];
+    const double distance =
+        (tube_.delta * tube_.half[v_] + (1 + incline) * slack) * kUp + kUnderflow;
+    attempt_.proved = true;
+    attempt_.piece = {u_, q_.direction, distance};
+    attempt_.factor = clamped(0.9 * std::sqrt(q_.goal / distance), 0.1, 3);
+  }
+
+  const TiledPolynomial& f_;
+  const Tile& tile_;
+  const Question& q_;
+  int u_, v_;
+  Attempt& attempt_;
+  Tube& tube_;
+  CurvePoint& to_;
+  Expansion e_;  ///< in the rectangle's coordinates
+  Sums sums_;
+  double lost_ = 0, error_ = 0, slope_error_ = 0;
+  double noise_ = 0;  ///< what the error amounts to, in input units
+  double least_slope_ = 0;
+  double s_[2], t_[2];  ///< the ends
+  double value_ = 0;    ///< at the end that is free
+};
+
+PieceProver::Fit PieceProver::try_with(const Tile& tile, const Question& question,
+                                       Attempt* attempt) const {
+  return Trial(f_, tile, question, attempt).run();
 }
 
 /// Makes a tile of its own around the chord; false if it is no better than the one there is.

@@ -65,6 +65,7 @@ class PieceProver {
 
  private:
   struct Question;
+  class Trial;
   /// Whether another tile may do better: this one's errors are too large, or it is too small.
   enum class Fit { Good, Noisy, Outside };
   Fit try_with(const Tile& tile, const Question& question, Attempt* attempt) const;

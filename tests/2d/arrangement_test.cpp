@@ -15,6 +15,7 @@
 #include "common/random_polynomials.hpp"
 #include "common/segments.hpp"
 #include "tests/encased.hpp"
+#include "tests/located_points.hpp"
 #include "tests/mutations.hpp"
 #include "tests/sample_encasements.hpp"
 
@@ -24,16 +25,11 @@ namespace {
 using encased::rectangle;
 using encased::run;
 using Feature = Arrangement::Feature;
-
-Arrangement arranged(const Encasement& e) {
-  const Result<Arrangement> result = arrange(e);
-  if (!result) {
-    ADD_FAILURE() << result.error().message;
-    return {};
-  }
-  EXPECT_EQ(check(result.value()), "");
-  return result.value();
-}
+using located_points::arranged;
+using located_points::count;
+using located_points::expect_locates;
+using located_points::expect_right;
+using located_points::mixed_curves;
 
 struct Counts {
   int vertices, edges, faces, components;
@@ -51,85 +47,6 @@ Counts counts(const Arrangement& a) {
   for (const auto& v : a.vertices) corners += v.kind == Arrangement::Vertex::Kind::Corner;
   return {static_cast<int>(a.vertices.size()) - corners, static_cast<int>(a.edges.size()) - corners,
           static_cast<int>(a.faces.size()) - 1, static_cast<int>(a.components.size())};
-}
-
-int count(const Arrangement& a, Arrangement::Vertex::Kind kind) {
-  return static_cast<int>(std::count_if(a.vertices.begin(), a.vertices.end(),
-                                        [&](const auto& v) { return v.kind == kind; }));
-}
-
-RationalPoint<2> exactly(const Point<2>& p) { return {Rational(p[0]), Rational(p[1])}; }
-
-Sign exact_sign(const Polynomial<2>& f, const RationalPoint<2>& p) { return sign_of(sgn(f(p))); }
-
-/// The located feature has the exact signs at the point on it.
-void expect_right(const Encasement& e, const Arrangement& a, const Feature& feature,
-                  const RationalPoint<2>& point) {
-  Kernel kernel;
-  bool outside = false, boundary = false;
-  for (int k = 0; k < e.region_used.side_count(); ++k) {
-    const Sign s = side(e.region_used.side(k), point, kernel);
-    outside = outside || s == Sign::Positive;
-    boundary = boundary || s == Sign::Zero;
-  }
-  if (outside) {
-    EXPECT_EQ(feature, (Feature{Feature::Kind::Face, a.outside}));
-    return;
-  }
-  std::vector<Sign> signs;
-  std::vector<int> zeros;
-  for (std::size_t c = 0; c < e.curves.size(); ++c) {
-    signs.push_back(exact_sign(e.curves[c].polynomial, point));
-    if (signs.back() == Sign::Zero) zeros.push_back(static_cast<int>(c));
-  }
-  ASSERT_GE(feature.index, 0);
-  if (feature.kind == Feature::Kind::Face) {
-    EXPECT_TRUE(zeros.empty());
-    EXPECT_FALSE(boundary);
-    EXPECT_EQ(a.faces[feature.index].signs, signs);
-  } else if (feature.kind == Feature::Kind::Edge) {
-    const int curve = a.edges[feature.index].curve;
-    EXPECT_EQ(curve < 0, boundary);
-    EXPECT_EQ(zeros, curve < 0 ? std::vector<int>{} : std::vector<int>{curve});
-    for (const int f : a.faces_at(feature.index))
-      for (std::size_t c = 0; c < signs.size() && f != a.outside; ++c)
-        if (static_cast<int>(c) != curve) {
-          EXPECT_EQ(a.faces[f].signs[c], signs[c]);
-        }
-  } else {
-    const Arrangement::Vertex& v = a.vertices[feature.index];
-    if (v.kind == Arrangement::Vertex::Kind::Crossing)
-      EXPECT_EQ(zeros, std::vector<int>(e.crossings[v.index].curves.begin(),
-                                        e.crossings[v.index].curves.end()));
-    else if (v.kind == Arrangement::Vertex::Kind::OnBoundary)
-      EXPECT_EQ(zeros, std::vector<int>{e.line_crossings[v.index].curve});
-    else
-      EXPECT_EQ(point, e.region_used.corners[v.index]);
-  }
-}
-
-/// Random points, some outside, some of few bits, and points of splitting lines.
-void expect_locates(const Encasement& e, const Arrangement& a, int points, unsigned seed) {
-  const PointLocator locator(e, a);
-  const Box<2> box = e.region_used.bounding_box();
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> part(-0.05, 1.05);
-  for (int k = 0; k < points; ++k) {
-    Point<2> p;
-    for (int i = 0; i < 2; ++i) {
-      p[i] = box.lo[i] + part(random) * box.width(i);
-      if (k % 3 == 0) p[i] = std::round(8 * p[i]) / 8;
-    }
-    const Feature feature = locator.locate(p);
-    expect_right(e, a, feature, exactly(p));
-    if (k % 10 == 0) {
-      EXPECT_EQ(locator.locate(exactly(p)), feature);
-    }
-    const Line& line = e.lines[random() % e.lines.size()];
-    const RationalPoint<2> on_line = point_on_line(line, Rational(p[parameter_axis(line)]));
-    if (k % 5 == 0) expect_right(e, a, locator.locate(on_line), on_line);
-    if (testing::Test::HasFailure()) return;
-  }
 }
 
 Encasement permuted(Encasement e, unsigned seed) {
@@ -382,19 +299,6 @@ TEST(Arrange, SurvivesWhatIsCorrupt) {
   EXPECT_GT(refused, 500);
 }
 
-/// Curves of the degrees 1, 2, 3, 4, 1, ...
-std::vector<NamedCurve> mixed_curves(int count, std::uint64_t seed) {
-  std::vector<NamedCurve> curves;
-  for (int k = 0; k < count; ++k) {
-    RandomOptions options;
-    options.degree = 1 + k % 4;
-    options.count = 1;
-    options.seed = 100 * seed + static_cast<std::uint64_t>(k);
-    curves.push_back({"c" + std::to_string(k), random_polynomials<2>(options)[0]});
-  }
-  return curves;
-}
-
 TEST(Arrange, SatisfiesEulerOnRandomCurves) {
   for (int number = 2; number <= 8; ++number)
     for (const std::uint64_t seed : {1, 2}) {
@@ -408,98 +312,6 @@ TEST(Arrange, SatisfiesEulerOnRandomCurves) {
       EXPECT_EQ(encased::inside(e), crossings);
       expect_locates(e, a, 1000, static_cast<unsigned>(number));
     }
-}
-
-TEST(PointLocator, FindsCrossingsByTheirBoxes) {
-  // The corners of a crossing's box lie on four faces around it, or on fewer.
-  const Encasement e = encased::run_curves(mixed_curves(5, 3));
-  const Arrangement a = arranged(e);
-  const PointLocator locator(e, a);
-  for (int v = 0; v < static_cast<int>(a.vertices.size()); ++v) {
-    if (a.vertices[v].kind != Arrangement::Vertex::Kind::Crossing) continue;
-    const Box<2>& box = e.crossings[a.vertices[v].index].box;
-    const std::vector<int> faces = a.faces_around(v);
-    for (const double x : {box.lo[0], box.hi[0]})
-      for (const double y : {box.lo[1], box.hi[1]}) {
-        const Feature feature = locator.locate(Point<2>{x, y});
-        if (feature.kind != Feature::Kind::Face) continue;
-        EXPECT_EQ(std::count(faces.begin(), faces.end(), feature.index), 1);
-      }
-  }
-}
-
-TEST(PointLocator, FindsOneFaceAlongASegmentWithoutCurves) {
-  RandomOptions many;
-  many.degree = 8;
-  many.count = 3;
-  const Encasement e = encased::run_curves(random_curves(many));
-  const Arrangement a = arranged(e);
-  const PointLocator locator(e, a);
-  std::vector<FilteredPolynomial<2>> curves;
-  for (const Curve& curve : e.curves) curves.emplace_back(curve.polynomial);
-  Kernel kernel;
-  std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> place(-1, 1), step(-0.3, 0.3);
-  int same = 0, different = 0;
-  for (int k = 0; k < 1000; ++k) {
-    const Point<2> p = {place(random), place(random)};
-    const Point<2> q = {p[0] + step(random), p[1] + step(random)};
-    const Feature at_p = locator.locate(p), at_q = locator.locate(q);
-    if (at_q == Feature{Feature::Kind::Face, a.outside}) continue;
-    const bool free = std::all_of(curves.begin(), curves.end(), [&](const auto& f) {
-      return no_root_on_segment(f, p, q, kernel);
-    });
-    (free ? same : different) += 1;
-    if (free) {
-      EXPECT_EQ(at_p, at_q);
-    }
-  }
-  EXPECT_GT(same, 100);
-  EXPECT_GT(different, 100);
-}
-
-TEST(PointLocator, KnowsRegionsWithRationalSides) {
-  const Region triangle = make_region({{Rational(-1, 3), Rational(-2, 7)},
-                                       {Rational(5, 3), Rational(1, 9)},
-                                       {Rational(1, 7), Rational(11, 6)}})
-                              .value();
-  const Encasement e = run({"x^2 + y^2 - 1/2", "y - x/3 - 1/5", "x*y - 1/6"}, triangle);
-  ASSERT_EQ(e.region.corners, e.region_used.corners);
-  const Arrangement a = arranged(e);
-  EXPECT_EQ(count(a, Arrangement::Vertex::Kind::Corner), 3);
-  const PointLocator locator(e, a);
-  for (int k = 0; k < 3; ++k) {
-    const RationalPoint<2>&p = triangle.corners[k], &q = triangle.corners[(k + 1) % 3];
-    for (int i = 0; i <= 50; ++i) {
-      const Rational t = Rational(i) / 50;
-      const RationalPoint<2> point = {Rational(p[0] + t * (q[0] - p[0])),
-                                      Rational(p[1] + t * (q[1] - p[1]))};
-      const Feature feature = locator.locate(point);
-      EXPECT_NE(feature.kind, Feature::Kind::Face);
-      expect_right(e, a, feature, point);
-      if (feature.kind != Feature::Kind::Edge) continue;
-      EXPECT_EQ(a.edges[feature.index].side, k);
-    }
-  }
-  // The line meets the side from corner 2 to corner 0 in a rational point.
-  const Line side = triangle.side(2);
-  const auto s = side.exact();
-  const Rational x = -(s[1] / 5 + s[2]) / (s[0] + s[1] / 3);
-  const Feature meeting = locator.locate(RationalPoint<2>{x, Rational(x / 3 + Rational(1, 5))});
-  ASSERT_EQ(meeting.kind, Feature::Kind::Vertex);
-  EXPECT_EQ(a.vertices[meeting.index].kind, Arrangement::Vertex::Kind::OnBoundary);
-  expect_locates(e, a, 1000, 12);
-}
-
-TEST(PointLocator, CallsWhatIsNotFiniteOutside) {
-  const Encasement e = run({"x"});
-  const Arrangement a = arranged(e);
-  const PointLocator locator(e, a);
-  for (const double bad : {HUGE_VAL, -HUGE_VAL, std::nan("")})
-    EXPECT_EQ(locator.locate(Point<2>{0.5, bad}), (Feature{Feature::Kind::Face, a.outside}));
-  EXPECT_EQ(locator.locate(Point<2>{1e308, -1e308}), (Feature{Feature::Kind::Face, a.outside}));
-  EXPECT_EQ(locator.locate(Point<2>{0, 5e-324}).kind, Feature::Kind::Edge);
-  EXPECT_NE(locator.locate(Point<2>{5e-324, 0}), locator.locate(Point<2>{-5e-324, 0}));
 }
 
 TEST(CanonicalTopology, IsThatOfTheInput) {

@@ -210,6 +210,10 @@ void expect_faces(const Encasement& e, const Arrangement& a, const Tracing& trac
       EXPECT_EQ(cycle.front(), cycle.back());
       const bool outer = k == 0 && f != a.outside;
       EXPECT_EQ(area(cycle) > 0, outer);
+      for (std::size_t j = 0; j < boundaries[f].size() && !outer; ++j)
+        if (j != k) {
+          EXPECT_EQ(is_inside(cycle.front(), {boundaries[f][j]}), j == 0 && f != a.outside);
+        }
       if (f != a.outside) sum += area(cycle);
     }
   }
@@ -282,7 +286,7 @@ TEST(Trace, KeepsItsWordForAnyTolerance) {
   expect_pieces(e, a, fine);
 }
 
-TEST(Trace, RefusesATolerenceThatIsNone) {
+TEST(Trace, RefusesAToleranceThatIsNone) {
   const Encasement e = run({"x^2 + y^2 - 1/2"});
   const Arrangement a = arrange(e).value();
   for (const double tolerance : {0.0, -1.0, std::nan("")}) {
@@ -336,6 +340,30 @@ TEST(Trace, NestsLoopsThatAreClose) {
   expect_traced(e, 0.1);
 }
 
+TEST(Trace, KeepsDotsInsideThatAChordWouldLeaveOutside) {
+  const auto x = Polynomial<2>::variable(0), y = Polynomial<2>::variable(1);
+  const auto circle = [&](const Rational& at_x, const Rational& at_y, const Rational& square) {
+    const auto u = x - Polynomial<2>::constant(at_x), v = y - Polynomial<2>::constant(at_y);
+    return u * u + v * v - Polynomial<2>::constant(square);
+  };
+  std::vector<NamedCurve> curves = {{"large", circle(0, 0, Rational(1, 4))}};
+  for (int k = 0; k < 12; ++k) {
+    const double angle = 0.3 + k * 0.5236;
+    curves.push_back({"dot", circle(Rational(0.49 * std::cos(angle)),
+                                    Rational(0.49 * std::sin(angle)), Rational(1, 1000000))});
+  }
+  expect_traced(encased::run_curves(curves), 0.1);
+}
+
+TEST(Trace, KeepsTheSidesOfALens) {
+  // Between two crossings one of two curves bends so little more than the other that its chord is
+  // beyond it. The factor has no zeros; it only makes the second curve's pieces shorter.
+  const Encasement e = run({"y - x^2",
+                            "(y - x^2 - (1/4 - x^2)/1000)*"
+                            "((x - 1/10)^2 + (y - 1/5)^2 + 1/50)"});
+  expect_traced(e, std::numeric_limits<double>::infinity());
+}
+
 TEST(Trace, LeavesAFlatCrossingInTheRightOrder) {
   // Three curves whose tangents are nearly the same where they cross, and that bend.
   const Encasement e = run({"y - x^2", "y - x^2 - (x - 1/10)/10000", "y - x^2 + (x + 1/5)/10000"});
@@ -386,6 +414,30 @@ TEST(Neighbours, ShareAnEdge) {
   EXPECT_EQ(a.neighbours(a.outside), sorted({above, below}));
   for (int h = 0; h < static_cast<int>(a.half_edges.size()); ++h)
     EXPECT_EQ(a.across(h), a.half_edges[Arrangement::twin(h)].face);
+}
+
+/// The distance proved for the chord from (-1, 0) to (1, 0).
+double proved_distance(const std::string& text) {
+  Kernel kernel;
+  const FilteredPolynomial<2> f(written::polynomial<2>(text));
+  TiledPolynomial tiles(f, {{-2, -2}, {2, 2}}, kernel);
+  const CurvePoint p{{-1, 0}, {{-1, 0}, {-1, 0}}}, q{{1, 0}, {{1, 0}, {1, 0}}};
+  const Attempt attempt = PieceProver(tiles, kernel).prove(p, q, false, 0, 1, 1);
+  EXPECT_TRUE(attempt.proved);
+  EXPECT_FALSE(attempt.tube.may_meet({{2, 0}, {3, 1}}));
+  EXPECT_FALSE(attempt.tube.may_meet({{-0.5, 1.5}, {0.5, 3}}));
+  return attempt.piece.distance;
+}
+
+TEST(PieceProver, SeesWhatVanishesAtTheEndsAndInTheMiddle) {
+  // y = (x^3 - x^5) / 10: on the chord all terms up to degree 2 vanish.
+  const double x = std::sqrt(0.6);
+  EXPECT_GE(proved_distance("10*y - x^3 + x^5"), (x * x * x - x * x * x * x * x) / 10);
+}
+
+TEST(PieceProver, SeesThatTheSlopeFallsOffTheChord) {
+  // At x = 0, y - 9/20 y^2 = 1/5.
+  EXPECT_GE(proved_distance("y - 9/20*y^2 - 1/5 + x^2/5"), 2. / 9);
 }
 
 /// Chords between any points near a curve: what is proved of them holds.
