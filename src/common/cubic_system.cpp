@@ -95,29 +95,26 @@ HWY_INLINE void multiply(const double* matrix, const Row* rows, Row* result) {
   }
 }
 
-/// The nets from two nets of 8 x 8 coefficients: these are evaluated at 4 x 4 nodes (`nodes`: of x,
+/// The cubic nets from two Chebyshev nets: these are evaluated at 4 x 4 nodes (`nodes`: of x,
 /// then of y), and `matrix` turns four values into coefficients.
 void restrict_nets(const double* f, const double* g, const double* nodes, const double* matrix,
                    double* to, PairedExtremes* extremes) {
-  // Bernstein's polynomials of degree 7 at all nodes.
+  // Chebyshev's polynomials at all nodes.
   HWY_ALIGN double weights[8][8];
-  const Row half = Row::all(0.5), s = Row::load(nodes) * half;
-  Row u[8], v[8];
-  u[1] = half + s;
-  v[1] = half - s;
+  const Row x = Row::load(nodes), twice = x + x;
+  Row before = Row::all(1), last = x;
+  x.store(weights[1]);
   for (int i = 2; i < 8; ++i) {
-    u[i] = u[i - 1] * u[1];
-    v[i] = v[i - 1] * v[1];
+    const Row next = twice * last - before;
+    before = last;
+    last = next;
+    next.store(weights[i]);
   }
-  constexpr double kBinomial[8] = {1, 7, 21, 35, 35, 21, 7, 1};
-  v[7].store(weights[0]);
-  u[7].store(weights[7]);
-  for (int i = 1; i < 7; ++i) (u[i] * Row::all(kBinomial[i]) * v[7 - i]).store(weights[i]);
   // Across rows, at the nodes of x; then across what becomes rows, at those of y.
   Row t[8], value[4], rows[4];
   for (int k = 0; k < 4; ++k) {
-    t[k] = Row::load(f) * Row::all(weights[0][k]);
-    t[4 + k] = Row::load(g) * Row::all(weights[0][k]);
+    t[k] = Row::load(f);
+    t[4 + k] = Row::load(g);
     for (int i = 1; i < 8; ++i) {
       const Row weight = Row::all(weights[i][k]);
       t[k] = t[k] + Row::load(f + 8 * i) * weight;
@@ -126,7 +123,7 @@ void restrict_nets(const double* f, const double* g, const double* nodes, const 
   }
   transpose(t);
   for (int k = 0; k < 4; ++k) {
-    Row sum = t[0] * Row::all(weights[0][4 + k]);
+    Row sum = t[0];
     for (int j = 1; j < 8; ++j) sum = sum + t[j] * Row::all(weights[j][4 + k]);
     value[k] = sum;
   }
@@ -135,6 +132,34 @@ void restrict_nets(const double* f, const double* g, const double* nodes, const 
   multiply(matrix, rows, value);
   for (int i = 0; i < 4; ++i) value[i].store(to + 8 * i);
   *extremes = range_of_rows(value).extremes();
+}
+
+/// The same from cubic nets.
+void restrict_cubic(const double* b, const double* nodes, const double* matrix, double* to,
+                    PairedExtremes* extremes) {
+  HWY_ALIGN double weights[4][8];
+  const Row half = Row::all(0.5), s = Row::load(nodes) * half, three = Row::all(3);
+  const Row u = half + s, v = half - s, uu = u * u, vv = v * v;
+  (vv * v).store(weights[0]);
+  (vv * u * three).store(weights[1]);
+  (uu * v * three).store(weights[2]);
+  (uu * u).store(weights[3]);
+  Row rows[4], value[4];
+  for (int i = 0; i < 4; ++i) rows[i] = Row::load(b + 8 * i);
+  for (int k = 0; k < 4; ++k) {
+    value[k] = rows[0] * Row::all(weights[0][k]);
+    for (int i = 1; i < 4; ++i) value[k] = value[k] + rows[i] * Row::all(weights[i][k]);
+  }
+  transpose_halves(value);
+  for (int k = 0; k < 4; ++k) {
+    rows[k] = value[0] * Row::all(weights[0][4 + k]);
+    for (int i = 1; i < 4; ++i) rows[k] = rows[k] + value[i] * Row::all(weights[i][4 + k]);
+  }
+  multiply(matrix, rows, value);
+  transpose_halves(value);
+  multiply(matrix, value, rows);
+  for (int i = 0; i < 4; ++i) rows[i].store(to + 8 * i);
+  *extremes = range_of_rows(rows).extremes();
 }
 
 HWY_INLINE Row by_halves(double first, double second) {
@@ -194,8 +219,7 @@ void precondition(const double* b, const double* magnitude, const double* radius
   }
   const Row own = by_halves(y[0][0], y[1][1]), other = by_halves(y[0][1], y[1][0]);
   for (int i = 0; i < 4; ++i) c[i] = own * rows[i] + other * swap_halves(rows[i]);
-  result->excluded =
-      range_of_rows(c).signs_beyond(by_halves(result->radius[0], result->radius[1]));
+  result->excluded = range_of_rows(c).signs_beyond(by_halves(result->radius[0], result->radius[1]));
   if (result->excluded || !result->regular) return;
   for (int i = 0; i < 4; ++i) rows[i] = c[i] - Row::load(kCoordinates.row[i]);
   result->rest = range_of_rows(rows).extremes();
@@ -226,18 +250,19 @@ void variations(const double* b, PairedExtremes* result) {
   }
 }
 
-/// The greatest absolute value of the fourth differences across rows and across lanes.
-void fourth_differences(const double* b, double* result) {
-  Row rows[8], d[8];
-  for (int i = 0; i < 8; ++i) rows[i] = Row::load(b + 8 * i);
-  for (int k = 0; k < 2; ++k) {
-    for (int i = 0; i < 7; ++i) d[i] = rows[i + 1] - rows[i];
-    for (int n = 6; n >= 4; --n)
-      for (int i = 0; i < n; ++i) d[i] = d[i + 1] - d[i];
-    result[k] = greatest_lane(greatest(greatest(absolute(d[0]), absolute(d[1])),
-                                       greatest(absolute(d[2]), absolute(d[3]))));
-    if (k == 0) transpose(rows);
+/// The sums of the absolute values of a net's coefficients: of all, of the rows 4 to 7, and of the
+/// lanes 4 to 7.
+void add_up(const double* net, double* result) {
+  Row total = Row::all(0);
+  for (int i = 0; i < 8; ++i) {
+    const Row size = absolute(Row::load(net + 8 * i));
+    total = total + size;
+    if (i >= 4) result[1 + i - 4] = sum_of_lanes(size);
   }
+  HWY_ALIGN double lanes[8];
+  total.store(lanes);
+  for (int j = 4; j < 8; ++j) result[1 + j] = lanes[j];
+  result[0] = sum_of_lanes(total);
 }
 
 }  // namespace encase::HWY_NAMESPACE
@@ -248,10 +273,11 @@ namespace encase {
 namespace {
 
 HWY_EXPORT(restrict_nets);
+HWY_EXPORT(restrict_cubic);
 HWY_EXPORT(halve_nets);
 HWY_EXPORT(precondition);
 HWY_EXPORT(variations);
-HWY_EXPORT(fourth_differences);
+HWY_EXPORT(add_up);
 
 constexpr double kUnit = 0x1p-53;
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
@@ -271,39 +297,95 @@ bool find_weights(const Matrix<2>& e, double quality, std::array<double, 2>* v) 
 
 }  // namespace
 
-std::array<double, 2> fourth_derivatives(const Patch& patch) {
-  std::array<double, 2> d;
-  HWY_DYNAMIC_DISPATCH(fourth_differences)(patch.b[0].data(), d.data());
-  // 7 6 5 4 / 2^4 times the differences, which pass four roundings of up to 16 magnitudes.
-  for (double& x : d) x = (52.5 * x + 0x1p-43 * patch.magnitude()) * kUp + kTiny;
-  return d;
+void expand(const Tile& tile, const Box<2>& box, CubicSource* source) {
+  expand(tile, box, static_cast<ChebyshevNet*>(source));
+  double sums[9];
+  HWY_DYNAMIC_DISPATCH(add_up)(source->c[0].data(), sums);
+  source->size = sums[0] * kUp;
+  // The fourth derivatives of T_4 to T_7 on [-1,1], over 192.
+  constexpr double kFourth[4] = {1, 10, 54, 210};
+  for (int i = 0; i < 2; ++i) {
+    CubicSource::High& high = source->high[i];
+    high = {0, 0, 0, 0};
+    for (int k = 3; k >= 0; --k) {
+      const double size = sums[1 + 4 * i + k], n = k + 4;
+      high.value += 2.8501 * size;
+      high.slope += (n * n + 16.7) * size;
+      high.value_of_part += 1.0001 * kFourth[k] * size;
+    }
+    high.slope_of_part = 54 * high.value_of_part;
+  }
 }
 
-void restrict_to(const std::array<CubicSource, 2>& sources, const Part& part,
-                 CubicSystem* system) {
+bool CubicSource::has_sign() const {
+  const double mean = std::fabs(c[0][0]), rest = (size - mean) * kUp + 0x1p-50 * mean;
+  return mean - rest > radius;
+}
+
+Part part_of(const Chart& chart, const Box<2>& box) {
+  const Chart inner = chart_of(box);
+  Part part;
+  for (int i = 0; i < 2; ++i) {
+    part.origin[i] = (inner[i].center - chart[i].center) / chart[i].half;
+    part.half[i] = inner[i].half / chart[i].half;
+  }
+  return part;
+}
+
+CubicLoss cubic_loss(const CubicSource& source, const Point<2>& half) {
+  double value[2], slope[2];
+  for (int i = 0; i < 2; ++i) {
+    const CubicSource::High& high = source.high[i];
+    const double square = half[i] * half[i], power = square * square * kUp;
+    value[i] = std::min(high.value, power * high.value_of_part);
+    slope[i] = std::min(high.slope, power * high.slope_of_part);
+  }
+  return {1.8501 * (value[0] + value[1]), {slope[0] + 16.7 * value[1], slope[1] + 16.7 * value[0]}};
+}
+
+void restrict_to(const std::array<CubicSource, 2>& sources, const Part& part, CubicSystem* system) {
   const Interpolation& table = interpolation(4);
   alignas(64) std::array<double, 8> nodes;
-  Point<2> fourth_power;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < 2; ++i)
     for (int k = 0; k < 4; ++k) nodes[4 * i + k] = part.origin[i] + part.half[i] * table.node[k];
-    const double square = part.half[i] * part.half[i] * kUp;
-    fourth_power[i] = square * square * kUp;
-  }
   PairedExtremes extremes;
   HWY_DYNAMIC_DISPATCH(restrict_nets)
-  (sources[0].patch.b[0].data(), sources[1].patch.b[0].data(), nodes.data(),
-   table.matrix[0].data(), system->b[0].data(), &extremes);
+  (sources[0].c[0].data(), sources[1].c[0].data(), nodes.data(), table.matrix[0].data(),
+   system->b[0].data(), &extremes);
   system->rows_axis = 0;
   system->lo = extremes.lo;
   system->hi = extremes.hi;
   for (int k = 0; k < 2; ++k) {
-    const auto& [patch, fourth] = sources[k];
-    const double x = fourth[0] * fourth_power[0], y = fourth[1] * fourth_power[1];
-    const double rounding = table.norm * table.norm * patch.magnitude() * 0x1p-44 + kTiny;
-    system->radius[k] = (patch.radius + 0.0097 * (x + y) + rounding) * kUp;
-    system->slope_radius[k] = {
-        (patch.slope_radius[0] * part.half[0] + 0.28 * x + 0.09 * y + 3 * rounding) * kUp,
-        (patch.slope_radius[1] * part.half[1] + 0.28 * y + 0.09 * x + 3 * rounding) * kUp};
+    const CubicSource& source = sources[k];
+    const CubicLoss loss = cubic_loss(source, part.half);
+    // Weights err by less than 320 u; sums and products round.
+    const double rounding = table.norm * table.norm * source.size * 0x1p-42 + kTiny;
+    system->radius[k] = (source.radius + loss.value + rounding) * kUp;
+    for (int i = 0; i < 2; ++i)
+      system->slope_radius[k][i] =
+          (source.slope_radius[i] * part.half[i] + loss.slope[i] + 3 * rounding) * kUp;
+  }
+}
+
+void restrict_to(const CubicSystem& from, const Part& part, CubicSystem* system) {
+  const Interpolation& table = interpolation(4);
+  alignas(64) std::array<double, 8> nodes;
+  const std::array<int, 2> axis{from.rows_axis, 1 - from.rows_axis};
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 4; ++k)
+      nodes[4 * i + k] = part.origin[axis[i]] + part.half[axis[i]] * table.node[k];
+  PairedExtremes extremes;
+  HWY_DYNAMIC_DISPATCH(restrict_cubic)
+  (from.b[0].data(), nodes.data(), table.matrix[0].data(), system->b[0].data(), &extremes);
+  system->rows_axis = axis[0];
+  system->lo = extremes.lo;
+  system->hi = extremes.hi;
+  for (int k = 0; k < 2; ++k) {
+    const double rounding = table.norm * table.norm * from.magnitude(k) * 0x1p-44 + kTiny;
+    system->radius[k] = (from.radius[k] + rounding) * kUp;
+    for (int i = 0; i < 2; ++i)
+      system->slope_radius[k][i] =
+          (from.slope_radius[k][i] * part.half[axis[i]] + 3 * rounding) * kUp;
   }
 }
 
@@ -324,8 +406,8 @@ std::array<bool, 2> halve(const CubicSystem& system, int axis, CubicSystem* lowe
   PairedExtremes extremes[2];
   std::array<bool, 2> excluded;
   HWY_DYNAMIC_DISPATCH(halve_nets)
-  (system.b[0].data(), along_lanes, radius.data(), lower->b[0].data(), upper->b[0].data(),
-   extremes, excluded.data());
+  (system.b[0].data(), along_lanes, radius.data(), lower->b[0].data(), upper->b[0].data(), extremes,
+   excluded.data());
   for (int k = 0; k < 2; ++k) {
     if (excluded[k]) continue;
     CubicSystem* half = k == 0 ? lower : upper;
@@ -367,8 +449,7 @@ void test_system(const CubicSystem& system, double quality, SystemVerdict* verdi
       const double lo = factor * p.slope[i].lo[c], hi = factor * p.slope[i].hi[c];
       const double center = i == c ? 1.0 : 0.0;
       const double deviation = std::max(hi - center, center - lo);
-      const double radius =
-          alpha * system.slope_radius[0][i] + beta * system.slope_radius[1][i];
+      const double radius = alpha * system.slope_radius[0][i] + beta * system.slope_radius[1][i];
       // Differences and products round; the deviation is rounded up.
       contraction.bound[axis[c]][axis[i]] =
           (std::max(deviation, 0.0) + radius + 2 * factor * p.rounding[c] +

@@ -15,7 +15,7 @@ constexpr double kQuality = 0.8;
 constexpr double kUp = 1 + 0x1p-40;
 constexpr int kCloserLooks = 3;
 constexpr double kSmallPart = 0.25;  // of a box's area
-constexpr int kSimpleLevels = 16;  // of halvings, after which most simple crossings are told apart
+constexpr int kSimpleLevels = 16;    // of halvings, after which most crossings are told apart
 
 double ulp(double x) {
   x = std::fabs(x);
@@ -70,6 +70,7 @@ class PlaneRoots {
   std::optional<Enclosure> tight_box_at(const Tiles& tiles, const Box<2>& around,
                                         const Approximation& a, Point<2>* d) const;
   void make_net(const Tiles& tiles, const Box<2>& box);
+  void look(const PlaneSubdivision<2>::Node& node, const Box<2>& box, bool first);
   std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
   std::optional<Box<2>> enclose(const Tiles& tiles, const Box<2>& around, const Contraction<2>& c,
                                 Point<2> x) const;
@@ -232,10 +233,7 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box(const Tiles& tiles, c
 
 /// The cubic nets on a box, from tiles.
 void PlaneRoots::make_net(const Tiles& tiles, const Box<2>& box) {
-  for (int i = 0; i < 2; ++i) {
-    expand(*tiles[i], box, Patch::kMaxCount, &sources_[i].patch);
-    sources_[i].fourth = fourth_derivatives(sources_[i].patch);
-  }
+  for (int i = 0; i < 2; ++i) expand(*tiles[i], box, &sources_[i]);
   restrict_to(sources_, {{0, 0}, {1, 1}}, &net_);
 }
 
@@ -387,7 +385,7 @@ std::optional<int> PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf,
 
 /// The part of a box with given local coordinates, or a little more. (Neighbouring doubles may be
 /// far apart for a small box.)
-Box<2> part_of(const Box<2>& box, const Box<2>& local) {
+Box<2> inner_box(const Box<2>& box, const Box<2>& local) {
   Box<2> part = box;
   for (int i = 0; i < 2; ++i) {
     const Centered chart = centered(box.lo[i], box.hi[i]);
@@ -397,6 +395,25 @@ Box<2> part_of(const Box<2>& box, const Box<2>& local) {
     part.hi[i] = std::min(box.hi[i], round_up(hi));
   }
   return part;
+}
+
+/// Whether the slopes of a net tell something about those of the polynomials.
+bool has_slopes(const CubicSystem& net) {
+  for (int i = 0; i < 2; ++i)
+    if (!(std::max(net.slope_radius[i][0], net.slope_radius[i][1]) < 0.2 * (net.hi[i] - net.lo[i])))
+      return false;
+  return true;
+}
+
+/// The net on a part of the node's box: from the node's if it is the first look, else from its base
+/// or its tiles.
+void PlaneRoots::look(const PlaneSubdivision<2>::Node& node, const Box<2>& box, bool first) {
+  if (first && has_slopes(node.net)) {
+    restrict_to(node.net, part_of(chart_of(node.box), box), &net_);
+    return;
+  }
+  restrict_to(node.base->source, part_of(node.base->chart, box), &net_);
+  if (coarse(net_, 0)) make_net(node.tile, box);
 }
 
 std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box<2>* part) {
@@ -418,10 +435,9 @@ std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box
     // Where all zeros lie in a small part, a closer look at that part is worth its price.
     if (round == kCloserLooks || zeros.width(0) * zeros.width(1) > 4 * kSmallPart)
       return std::nullopt;
-    box = part_of(box, zeros);
+    box = inner_box(box, zeros);
     if (!(box.width(0) > 0 && box.width(1) > 0)) return std::nullopt;
-    restrict_to(node.base->source, node.base->part(box), &net_);
-    if (coarse(net_, 0)) make_net(node.tile, box);
+    look(node, box, round == 0);
     if (net_.excluded()) return cover::kExcluded;
     test_system(net_, kQuality, &verdict_);
   }

@@ -304,9 +304,31 @@ constexpr double kUnit = 0x1p-53;
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
 constexpr double kTiny = 0x1p-1000;  // more than what gradual underflow can lose
 
-/// The Bernstein coefficients on [-1,1] of the polynomials that are 1 at one node and 0 at the
-/// others: products of linear factors, exactly, then rounded.
-Interpolation make_interpolation(int count) {
+enum class Basis { Bernstein, Chebyshev };
+
+/// The product of a polynomial and the linear function with the values `minus` and `plus` at the
+/// ends of [-1,1]; Bernstein coefficients are scaled by binomials.
+std::vector<Rational> product(const std::vector<Rational>& p, const Rational& minus,
+                              const Rational& plus, Basis basis) {
+  std::vector<Rational> result(p.size() + 1, Rational(0));
+  const Rational mean = (plus + minus) / 2, slope = (plus - minus) / 2;
+  for (std::size_t j = 0; j < p.size(); ++j) {
+    if (basis == Basis::Bernstein) {
+      result[j] += p[j] * minus;
+      result[j + 1] += p[j] * plus;
+    } else {
+      // s T_j = (T_(j+1) + T_|j-1|) / 2.
+      result[j] += p[j] * mean;
+      result[j + 1] += p[j] * slope / 2;
+      result[j > 0 ? j - 1 : 1] += p[j] * slope / 2;
+    }
+  }
+  return result;
+}
+
+/// The coefficients on [-1,1] of the polynomials that are 1 at one node and 0 at the others:
+/// products of linear factors, exactly, then rounded.
+Interpolation make_interpolation(int count, Basis basis) {
   Interpolation table;
   table.count = count;
   const int n = count - 1;
@@ -318,21 +340,17 @@ Interpolation make_interpolation(int count) {
   for (int k = count; k < 8; ++k) table.node[k] = table.node[n];
   std::vector<Rational> norms(count, Rational(0));
   for (int k = 0; k < count; ++k) {
-    // Coefficients scaled by binomials: those of the product of l(s) = l(-1) (1-u) + l(1) u.
-    std::vector<Rational> product{Rational(1)};
+    std::vector<Rational> of_node{Rational(1)};
     for (int m = 0; m < count; ++m) {
       if (m == k) continue;
       const Rational step = Rational(table.node[k]) - Rational(table.node[m]);
-      const Rational at_minus = (-1 - Rational(table.node[m])) / step;
-      const Rational at_plus = (1 - Rational(table.node[m])) / step;
-      product.emplace_back(0);
-      for (std::size_t j = product.size() - 1; j > 0; --j)
-        product[j] = product[j] * at_minus + product[j - 1] * at_plus;
-      product[0] *= at_minus;
+      of_node = product(of_node, (-1 - Rational(table.node[m])) / step,
+                        (1 - Rational(table.node[m])) / step, basis);
     }
     Integer choose = 1;
     for (int j = 0; j <= n; ++j) {
-      const Rational entry = product[j] / Rational(choose);
+      const Rational entry =
+          basis == Basis::Bernstein ? Rational(of_node[j] / Rational(choose)) : of_node[j];
       table.matrix[j][k] = nearest_double(entry);
       norms[j] += abs(entry);
       choose = choose * (n - j) / (j + 1);
@@ -370,7 +388,7 @@ Extremes widened(const Extremes& e, double factor, double radius) {
 const Interpolation& interpolation(int count) {
   static const std::array<Interpolation, 9> tables = [] {
     std::array<Interpolation, 9> all;
-    for (int k = 3; k <= Patch::kMaxCount; ++k) all[k] = make_interpolation(k);
+    for (int k = 3; k <= Patch::kMaxCount; ++k) all[k] = make_interpolation(k, Basis::Bernstein);
     return all;
   }();
   return tables[count];
@@ -408,48 +426,87 @@ const InterpolationLoss& interpolation_loss(int k) {
 int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
 
 InterpolationLoss interpolation_loss(const Tile& tile, double part) {
-  InterpolationLoss sum{0, 0, 0};
-  for (int k = tile.degree; k >= 8; --k) {
-    const InterpolationLoss& power = interpolation_loss(k);
-    const double size = tile.high_terms[k - 8];
-    sum = {sum.value * part + size * power.value, sum.slope * part + size * power.slope,
-           sum.bend * part + size * power.bend};
+  // By the kind of loss and the power.
+  static const auto weights = [] {
+    std::array<std::array<double, 8>, 3> w;
+    for (int k = 0; k < 8; ++k) {
+      const InterpolationLoss& power = interpolation_loss(8 + k);
+      w[0][k] = power.value;
+      w[1][k] = power.slope;
+      w[2][k] = power.bend;
+    }
+    return w;
+  }();
+  if (tile.degree < 8) return {0, 0, 0};
+  const double square = part * part, fourth = square * square;
+  double power = fourth * fourth * kUp;
+  std::array<double, 3> sum{0, 0, 0};
+  for (int k = 0; k < 8; ++k, power *= part) {
+    const double size = tile.high_terms[k] * power;
+    for (int i = 0; i < 3; ++i) sum[i] += size * weights[i][k];
   }
-  const double square = part * part, eighth = square * square * square * square * kUp;
-  return {sum.value * eighth, sum.slope * eighth, sum.bend * eighth};
+  return {sum[0], sum[1], sum[2]};
 }
 
-void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
-  const Interpolation& table = interpolation(count);
-  patch->count = table.count;
-  patch->rows_axis = 0;
+namespace {
+
+/// What `expand` says of a net in any basis.
+struct Expanded {
+  Extremes extremes;
+  Point<2> part;           ///< the half widths of the box in the coordinates of the tile
+  InterpolationLoss loss;  ///< by the low degree
+  double rounding;         ///< of every coefficient
+};
+Expanded expand_with(const Interpolation& table, const Tile& tile, const Box<2>& box,
+                     std::array<std::array<double, 8>, 8>* net) {
+  Expanded e;
   // (HWY_ALIGN is that of the scalar path here.)
   alignas(64) std::array<std::array<double, 8>, 2> at;
-  Point<2> part;
   for (int i = 0; i < 2; ++i) {
     const Centered chart = centered(box.lo[i], box.hi[i]);
     const double origin = (chart.center - tile.center[i]) / tile.half[i];
-    part[i] = chart.half / tile.half[i];
-    for (int k = 0; k < 8; ++k) at[i][k] = origin + part[i] * table.node[k];
+    e.part[i] = chart.half / tile.half[i];
+    for (int k = 0; k < 8; ++k) at[i][k] = origin + e.part[i] * table.node[k];
   }
-  const Extremes extremes = HWY_DYNAMIC_DISPATCH(expand_patch)(
-      tile.a[0].data(), tile.degree, at[0].data(), at[1].data(), table, &patch->b);
-  patch->lo = extremes.lo;
-  patch->hi = extremes.hi;
-  // The loss by the low degree and the tile's own error, in the coordinates of the box.
-  const double fraction = std::max(part[0], part[1]) * kUp;
-  const InterpolationLoss loss = interpolation_loss(tile, fraction);
-  patch->radius = loss.value + tile.error;
-  for (int i = 0; i < 2; ++i) patch->slope_radius[i] = loss.slope + tile.slope_error * part[i];
-  patch->bend_radius = {loss.bend + tile.bend_error * part[0] * part[0],
-                        loss.bend + tile.bend_error * part[1] * part[1],
-                        loss.bend + tile.bend_error * part[0] * part[1]};
+  e.extremes = HWY_DYNAMIC_DISPATCH(expand_patch)(tile.a[0].data(), tile.degree, at[0].data(),
+                                                  at[1].data(), table, net);
+  e.loss = interpolation_loss(tile, std::max(e.part[0], e.part[1]) * kUp);
   // Samples: Horner's rule twice, at points that are off by less than 2^-50; then two matrix
   // products.
   const double n = tile.degree;
   const double sample = 1.01 * kUnit * (4 * n + 2) * tile.sum + 0x1p-49 * tile.slope;
   const double products = 1.01 * kUnit * 2 * (table.count + 2) * tile.sum;
-  add_rounding(patch, table.norm * table.norm * (sample + products) * kUp + kTiny);
+  e.rounding = table.norm * table.norm * (sample + products) * kUp + kTiny;
+  return e;
+}
+
+}  // namespace
+
+void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
+  const Expanded e = expand_with(interpolation(count), tile, box, &patch->b);
+  const Point<2>& part = e.part;
+  const InterpolationLoss& loss = e.loss;
+  patch->count = count;
+  patch->rows_axis = 0;
+  patch->lo = e.extremes.lo;
+  patch->hi = e.extremes.hi;
+  // The loss by the low degree and the tile's own error, in the coordinates of the box.
+  patch->radius = loss.value + tile.error;
+  for (int i = 0; i < 2; ++i) patch->slope_radius[i] = loss.slope + tile.slope_error * part[i];
+  patch->bend_radius = {loss.bend + tile.bend_error * part[0] * part[0],
+                        loss.bend + tile.bend_error * part[1] * part[1],
+                        loss.bend + tile.bend_error * part[0] * part[1]};
+  add_rounding(patch, e.rounding);
+}
+
+void expand(const Tile& tile, const Box<2>& box, ChebyshevNet* net) {
+  static const Interpolation table = make_interpolation(8, Basis::Chebyshev);
+  const Expanded e = expand_with(table, tile, box, &net->c);
+  // 64 coefficients; derivatives of T_k are at most k^2.
+  net->radius = (e.loss.value + tile.error + 64 * e.rounding) * kUp;
+  for (int i = 0; i < 2; ++i)
+    net->slope_radius[i] =
+        (e.loss.slope + tile.slope_error * e.part[i] + 8 * 140 * e.rounding) * kUp;
 }
 
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper) {

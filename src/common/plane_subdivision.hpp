@@ -51,23 +51,12 @@ inline std::optional<bool> lies_inside(const Box<2>& box, const std::vector<Line
   return std::nullopt;
 }
 
-/// Patches of two polynomials on one box, from which the cubic nets on boxes within it are made.
+/// Two polynomials on one box, from which the cubic nets on boxes within it are made.
 struct CubicBase {
   std::array<CubicSource, 2> source;
-  std::array<const Tile*, 2> tile{};  ///< that they come from; their rectangles contain the box
-  std::array<Centered, 2> chart;
-  int level;  ///< of the box
-
-  /// Where another box lies in this one.
-  Part part(const Box<2>& box) const {
-    Part part;
-    for (int i = 0; i < 2; ++i) {
-      const Centered c = centered(box.lo[i], box.hi[i]);
-      part.origin[i] = (c.center - chart[i].center) / chart[i].half;
-      part.half[i] = c.half / chart[i].half;
-    }
-    return part;
-  }
+  std::array<const Tile*, 2> tile;  ///< that they come from; their rectangles contain the box
+  Chart chart;                      ///< of the box
+  int level;                        ///< of the box
 };
 
 /// The subdivision of a box of the plane, with a patch of one polynomial on the boxes, or with
@@ -86,9 +75,8 @@ class PlaneSubdivision {
     std::conditional_t<N == 1, Patch, CubicSystem> net;
     /// The tiles that the net comes from. Their rectangles contain the box.
     std::array<const Tile*, N> tile{};
-    /// The level of the box that the patch was made for, or that which the cubic nets come from.
-    int expanded_at = 0;
-    const CubicBase* base = nullptr;
+    int expanded_at = 0;              ///< the level of the box that the patch was made for
+    const CubicBase* base = nullptr;  ///< on a box that contains this one
     /// The part, in the box's coordinates, outside of which nothing that is sought lies. A visitor
     /// may set it; halves that do not meet it are settled as excluded.
     Box<2> part;
@@ -139,7 +127,9 @@ class PlaneSubdivision {
   int token_of(Node& node, Visit visit);
   bool provide_net(Node& node);
   bool provide_base(Node& node);
-  bool make_patch(const Node& node, int i, Patch* patch, const Tile** tile);
+  bool make_cubic(Node& node);
+  template <class Net>
+  bool make_net(const Node& node, int i, Net* net, const Tile** tile);
   bool outside(Node& node) const;
   const Tile* local_tile(const Node& node, int i, int bits);
   void settle(int token, const Node& node);
@@ -160,8 +150,8 @@ class PlaneSubdivision {
   std::unique_ptr<CubicBase[]> bases_;  ///< those of a node's ancestors, by level in the band
   int first_level_ = 0;                 ///< of the band
   int count_ = Patch::kMaxCount;        ///< of the patches' coefficients in either variable
-  int boxes_ = 0;    ///< visited; those that had to wait twice
-  int deepest_ = 0;  ///< the level beyond which nothing is halved
+  int boxes_ = 0;                       ///< visited; those that had to wait twice
+  int deepest_ = 0;                     ///< the level beyond which nothing is halved
   bool stopped_ = false;
   bool unresolved_ = false;
 };
@@ -306,20 +296,24 @@ bool PlaneSubdivision<N>::outside(Node& node) const {
   return where == false;
 }
 
-/// Small boxes are where curves touch or nearly touch, and only the last digits tell them apart.
+/// How far a net may be from its polynomial, beside its size. Small boxes are where curves touch or
+/// nearly touch, and only the last digits tell them apart.
 constexpr int kUsualLevels = 18;  // of halvings
-inline double tolerated(int level, double usual) {
-  return level > kUsualLevels ? 0x1p-26 : usual;
-}
+inline double tolerated(int level, double usual) { return level > kUsualLevels ? 0x1p-26 : usual; }
 
 inline bool coarse(const Patch& patch, int level) {
   const double part = tolerated(level, 0x1p-4);
   const double slope_radius = std::max(patch.slope_radius[0], patch.slope_radius[1]);
-  return !(patch.radius <= part * patch.magnitude() && slope_radius <= part * (patch.hi - patch.lo));
+  return !(patch.radius <= part * patch.magnitude() &&
+           slope_radius <= part * (patch.hi - patch.lo));
+}
+
+inline bool coarse(const CubicSource& source, int level) {
+  return !(source.radius <= tolerated(level, 0x1p-4) * source.size);
 }
 
 inline bool coarse(const CubicSystem& system, int level) {
-  const double of_value = tolerated(level, 0x1p-5), of_slope = tolerated(level, 0x1p-3);
+  const double of_value = tolerated(level, 0.1), of_slope = tolerated(level, 4);
   for (int i = 0; i < 2; ++i) {
     const double slope_radius = std::max(system.slope_radius[i][0], system.slope_radius[i][1]);
     if (!(system.radius[i] <= of_value * system.magnitude(i) &&
@@ -329,88 +323,104 @@ inline bool coarse(const CubicSystem& system, int level) {
   return false;
 }
 
-/// Makes the node's net where it is missing or too coarse; false if the box is too large for one,
-/// or excluded at once.
+/// Makes the node's net where it is missing or too coarse; false if there is none, because the box
+/// is too large or excluded at once.
 template <>
 inline bool PlaneSubdivision<1>::provide_net(Node& node) {
   if (node.has_net && (node.expanded_at + 2 > node.level || !coarse(node.net, node.level)))
     return true;
-  if (!make_patch(node, 0, &node.net, &node.tile[0])) return false;
+  if (!make_net(node, 0, &node.net, &node.tile[0])) return false;
   node.expanded_at = node.level;
   node.has_net = true;
   return true;
 }
 
+/// Gives the node a base on its own box; false if that is too large, or excluded at once.
 template <>
 inline bool PlaneSubdivision<2>::provide_base(Node& node) {
   CubicBase& base = bases_[node.level - first_level_];
   base.tile = node.tile;
-  for (int i = 0; i < 2; ++i) {
-    auto& [patch, fourth] = base.source[i];
-    patch.radius = node.has_net ? node.net.radius[i] : HUGE_VAL;
-    if (!make_patch(node, i, &patch, &base.tile[i])) return false;
-    fourth = fourth_derivatives(patch);
-    base.chart[i] = centered(node.box.lo[i], node.box.hi[i]);
-  }
   base.level = node.level;
+  for (int i = 0; i < 2; ++i) {
+    CubicSource& source = base.source[i];
+    if (node.has_net) source.radius = node.net.radius[i];
+    if (!make_net(node, i, &source, &base.tile[i])) return false;
+    node.excluded = source.has_sign();
+    if (node.excluded) return false;
+  }
+  base.chart = chart_of(node.box);
   node.base = &base;
   node.tile = base.tile;
   return true;
 }
 
+/// The node's cubic nets from its base, if something can be expected of them; whether they are
+/// close enough to the polynomials, or prove at once that the box is excluded.
+template <>
+inline bool PlaneSubdivision<2>::make_cubic(Node& node) {
+  const CubicBase& base = *node.base;
+  const Part part = part_of(base.chart, node.box);
+  if (node.level <= kUsualLevels)
+    for (const CubicSource& source : base.source)
+      if (source.radius + cubic_loss(source, part.half).value >
+          0.1 * source.size * std::max(part.half[0], part.half[1]))
+        return false;
+  restrict_to(base.source, part, &node.net);
+  node.has_net = true;
+  node.excluded = node.net.excluded();
+  return node.excluded || !coarse(node.net, node.level);
+}
+
 template <>
 inline bool PlaneSubdivision<2>::provide_net(Node& node) {
   if (node.has_net && !coarse(node.net, node.level)) return true;
-  const auto make_net = [&] {
-    restrict_to(node.base->source, node.base->part(node.box), &node.net);
-    node.has_net = true;
-    node.excluded = node.net.excluded();
-    return node.excluded || !coarse(node.net, node.level);
-  };
-  if (!node.base || !make_net()) {
-    if (!node.base || node.base->level + 2 <= node.level) {
-      if (!provide_base(node)) return false;
-      make_net();
-    }
-    // Nothing can be expected of a net that is too far from its polynomial.
-    if (node.level <= kUsualLevels)
-      for (int i = 0; i < 2; ++i)
-        if (!(node.net.radius[i] <= 0.25 * node.net.magnitude(i))) node.has_net = false;
+  if (node.base && make_cubic(node)) return !node.excluded;
+  // A base of its own, unless the last one is hardly larger.
+  const int between = node.level <= kUsualLevels ? 2 : 1;
+  if (!node.base || node.base->level + between <= node.level) {
+    if (!provide_base(node)) return false;
+    make_cubic(node);
   }
   return node.has_net && !node.excluded;
 }
 
-/// A patch on the node's box and the tile that it comes from, which replaces the last one.
+/// A net on the node's box from a tile, which replaces the one that was used last; `net->radius` is
+/// what was known with that.
 template <int N>
-bool PlaneSubdivision<N>::make_patch(const Node& node, int i, Patch* patch, const Tile** used) {
+template <class Net>
+bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile** used) {
+  const auto make = [&](const Tile& tile) {
+    if constexpr (std::is_same_v<Net, Patch>)
+      expand(tile, node.box, count_, net);
+    else
+      expand(tile, node.box, net);
+  };
   if (node.level < 2 * kLevelsPerBand && local_[i].empty()) {
     const Tile* tile = &polynomials_[i]->at(node.box.center());
-    for (int axis = 0; axis < 2; ++axis) {
-      const double part = 0.5 * node.box.width(axis) / tile->half[axis];
-      if (part > 1.01) return false;
-    }
-    const double part = std::max(0.5 * node.box.width(0) / tile->half[0],
-                                 0.5 * node.box.width(1) / tile->half[1]);
+    Point<2> parts;
+    for (int axis = 0; axis < 2; ++axis)
+      parts[axis] = 0.5 * node.box.width(axis) / tile->half[axis];
+    const double part = std::max(parts[0], parts[1]);
+    if (part > 1.01) return false;
     if (!*used) {
       double size = 0;
       for (int k = 0; k <= 2; ++k)
         for (int l = 0; k + l <= 2; ++l) size += std::fabs(tile->a[k][l]);
       if (interpolation_loss(*tile, part).slope > 0x1p-4 * size) return false;
     }
-    expand(*tile, node.box, count_, patch);
+    make(*tile);
     *used = tile;
-    if (!coarse(*patch, node.level)) return true;
+    if (!coarse(*net, node.level)) return true;
     // What is lost by the low degree shrinks with the box.
-    if (interpolation_loss(*tile, part).value > 0.5 * patch->radius) return true;
+    if (interpolation_loss(*tile, part).value > 0.5 * net->radius) return true;
   }
   // A tile of the box's own, in double-doubles, then in MPFR.
   for (int bits = kernel_.start_bits; bits > 0; bits = kernel_.next(bits)) {
     if (bits == Kernel::kExtendedBits) continue;
-    const double before = *used ? patch->radius : HUGE_VAL;
+    const double before = *used ? net->radius : HUGE_VAL;
     *used = local_tile(node, i, bits);
-    expand(**used, node.box, count_, patch);
-    if (!coarse(*patch, node.level) ||
-        (bits > Kernel::kDoubleBits && !(patch->radius < 0.5 * before)))
+    make(**used);
+    if (!coarse(*net, node.level) || (bits > Kernel::kDoubleBits && !(net->radius < 0.5 * before)))
       break;
   }
   return true;
