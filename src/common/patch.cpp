@@ -326,18 +326,25 @@ std::vector<Rational> product(const std::vector<Rational>& p, const Rational& mi
   return result;
 }
 
+/// The nodes, symmetric; the last one repeated.
+std::array<double, 8> chebyshev_nodes(int count) {
+  std::array<double, 8> node;
+  const int n = count - 1;
+  for (int k = 0; k < 8; ++k) {
+    const int index = std::min(k, n), mirror = n - index;
+    const double x = std::cos(std::numbers::pi * (2 * std::min(index, mirror) + 1) / (2 * count));
+    node[k] = index == mirror ? 0.0 : index < mirror ? -x : x;
+  }
+  return node;
+}
+
 /// The coefficients on [-1,1] of the polynomials that are 1 at one node and 0 at the others:
 /// products of linear factors, exactly, then rounded.
 Interpolation make_interpolation(int count, Basis basis) {
   Interpolation table;
   table.count = count;
+  table.node = chebyshev_nodes(count);
   const int n = count - 1;
-  for (int k = 0; k < count; ++k) {
-    const int mirror = n - k;
-    const double x = std::cos(std::numbers::pi * (2 * std::min(k, mirror) + 1) / (2 * count));
-    table.node[k] = k == mirror ? 0.0 : k < mirror ? -x : x;
-  }
-  for (int k = count; k < 8; ++k) table.node[k] = table.node[n];
   std::vector<Rational> norms(count, Rational(0));
   for (int k = 0; k < count; ++k) {
     std::vector<Rational> of_node{Rational(1)};
@@ -385,13 +392,32 @@ Extremes widened(const Extremes& e, double factor, double radius) {
 
 }  // namespace
 
+namespace {
+
+/// Tables are made when they are first asked for: rational arithmetic takes its time.
+template <int count>
+const Interpolation& interpolation_of() {
+  static const Interpolation table = make_interpolation(count, Basis::Bernstein);
+  return table;
+}
+
+}  // namespace
+
 const Interpolation& interpolation(int count) {
-  static const std::array<Interpolation, 9> tables = [] {
-    std::array<Interpolation, 9> all;
-    for (int k = 3; k <= Patch::kMaxCount; ++k) all[k] = make_interpolation(k, Basis::Bernstein);
-    return all;
-  }();
-  return tables[count];
+  switch (count) {
+    case 3:
+      return interpolation_of<3>();
+    case 4:
+      return interpolation_of<4>();
+    case 5:
+      return interpolation_of<5>();
+    case 6:
+      return interpolation_of<6>();
+    case 7:
+      return interpolation_of<7>();
+    default:
+      return interpolation_of<8>();
+  }
 }
 
 const InterpolationLoss& interpolation_loss(int k) {
@@ -402,7 +428,7 @@ const InterpolationLoss& interpolation_loss(int k) {
   // 128 but for the rounding of the nodes: its derivatives are at most 64/128 and 1344/128.
   static const auto table = [] {
     std::array<InterpolationLoss, Tile::kMaxDegree + 1> losses{};
-    const auto& node = interpolation(8).node;
+    const auto node = chebyshev_nodes(8);
     std::array<double, 4> e{1, 0, 0, 0};
     for (int i = 0; i < 4; ++i)
       for (int j = 1; j < 4; ++j) e[j] += e[j - 1] * node[i] * node[i];
