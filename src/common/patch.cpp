@@ -267,14 +267,6 @@ void halve_patch(const Net& net, int count, bool along_lanes, double radius, Net
   });
 }
 
-void turn_net(int count, Net* net) {
-  with_count(count, [&]<int N>() HWY_ATTR {
-    Row rows[8];
-    for (int i = 0; i < N; ++i) rows[i] = Row::load((*net)[i].data());
-    store_transposed<N>(rows, net);
-  });
-}
-
 bool test_gradient(const Net& net, int count, double magnitude, const double* radius,
                    Extremes* slope) {
   bool result = false;
@@ -296,7 +288,6 @@ namespace {
 
 HWY_EXPORT(expand_patch);
 HWY_EXPORT(halve_patch);
-HWY_EXPORT(turn_net);
 HWY_EXPORT(test_gradient);
 HWY_EXPORT(second_derivatives);
 
@@ -562,13 +553,6 @@ void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper)
     child->bend_radius = bend;
     ++k;
   }
-}
-
-void turn(Patch* patch) {
-  HWY_DYNAMIC_DISPATCH(turn_net)(patch->count, &patch->b);
-  patch->rows_axis = 1 - patch->rows_axis;
-  std::swap(patch->slope_radius[0], patch->slope_radius[1]);
-  std::swap(patch->bend_radius[0], patch->bend_radius[1]);
 }
 
 namespace {

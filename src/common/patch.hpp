@@ -82,9 +82,6 @@ void expand(const Tile& tile, const Box<2>& box, ChebyshevNet* net);
 /// halves.
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper);
 
-/// Makes the rows run along the other axis.
-void turn(Patch* patch);
-
 /// What a patch proves about critical points.
 struct CriticalVerdict {
   bool excluded = false;  ///< as no_relevant_critical_point (box_tests.hpp), with little effort

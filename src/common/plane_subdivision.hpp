@@ -343,7 +343,7 @@ inline bool PlaneSubdivision<2>::provide_base(Node& node) {
   base.level = node.level;
   for (int i = 0; i < 2; ++i) {
     CubicSource& source = base.source[i];
-    if (node.has_net) source.radius = node.net.radius[i];
+    source.radius = node.has_net ? node.net.radius[i] : HUGE_VAL;
     if (!make_net(node, i, &source, &base.tile[i])) return false;
     node.excluded = source.has_sign();
     if (node.excluded) return false;
