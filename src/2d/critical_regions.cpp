@@ -49,7 +49,7 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve, const Box<2>& ro
   int small_boxes = 0;
   constexpr int kRegion = 0;
   const auto visit = [&](const PlaneSubdivision<1>::Node& node) {
-    const CriticalVerdict verdict = test_critical(node.patch[0]);
+    const CriticalVerdict verdict = test_critical(node.net);
     const auto& change = verdict.variation;  // zero if the gradient does not vanish
     if (verdict.excluded) {
       if (change[0] > 0 || change[1] > 0) result.other_points.push_back(node.box);
@@ -62,7 +62,7 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve, const Box<2>& ro
     }
     // Across the axis along which f changes more, weighted by the width.
     const int axis = change[0] * node.box.width(0) >= change[1] * node.box.width(1) ? 0 : 1;
-    if (node.box.width(axis) <= fine && node.patch[0].sign()) {
+    if (node.box.width(axis) <= fine && node.net.sign()) {
       result.other_points.push_back(node.box);
       return kRegion;
     }

@@ -15,7 +15,7 @@ constexpr double kQuality = 0.8;
 constexpr double kUp = 1 + 0x1p-40;
 constexpr int kCloserLooks = 3;
 constexpr double kSmallPart = 0.25;  // of a box's area
-constexpr int kUsualLevels = 16;  // of halvings, after which most simple crossings are told apart
+constexpr int kSimpleLevels = 16;    // of halvings, after which most crossings are told apart
 
 double ulp(double x) {
   x = std::fabs(x);
@@ -31,10 +31,7 @@ bool narrow(const Box<2>& box) {
 class PlaneRoots {
  public:
   PlaneRoots(TiledPolynomial& f, TiledPolynomial& g, Kernel& kernel)
-      : system_{&f, &g}, kernel_(kernel) {
-    for (const TiledPolynomial* p : system_)
-      count_ = std::max(count_, patch_count(p->polynomial().degree()));
-  }
+      : system_{&f, &g}, kernel_(kernel) {}
 
   std::vector<Box<2>> roots;
   std::vector<bool> rounded;  // as in RootIsolation
@@ -72,6 +69,8 @@ class PlaneRoots {
                                      Approximation a) const;
   std::optional<Enclosure> tight_box_at(const Tiles& tiles, const Box<2>& around,
                                         const Approximation& a, Point<2>* d) const;
+  void make_net(const Tiles& tiles, const Box<2>& box);
+  void look(const PlaneSubdivision<2>::Node& node, const Box<2>& box, bool first);
   std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
   std::optional<Box<2>> enclose(const Tiles& tiles, const Box<2>& around, const Contraction<2>& c,
                                 Point<2> x) const;
@@ -81,9 +80,9 @@ class PlaneRoots {
 
   std::array<TiledPolynomial*, 2> system_;
   Kernel& kernel_;
-  int count_ = 0;
   std::array<Tile, 2> around_tiles_;
-  std::array<Patch, 2> patches_;
+  std::array<CubicSource, 2> sources_;
+  CubicSystem net_;
   SystemVerdict verdict_;
 };
 
@@ -232,8 +231,13 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box(const Tiles& tiles, c
   }
 }
 
+/// The cubic nets on a box, from tiles.
+void PlaneRoots::make_net(const Tiles& tiles, const Box<2>& box) {
+  for (int i = 0; i < 2; ++i) expand(*tiles[i], box, &sources_[i]);
+  restrict_to(sources_, {{0, 0}, {1, 1}}, &net_);
+}
+
 std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& around, Tiles* tiles) {
-  std::array<Patch, 2> patches;
   for (int i = 0; i < 2; ++i) {
     const Tile*& tile = (*tiles)[i];
     bool contained = true;
@@ -244,10 +248,10 @@ std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& aroun
       system_[i]->expand(around, kernel_.start_bits, &around_tiles_[i]);
       tile = &around_tiles_[i];
     }
-    expand(*tile, around, count_, &patches[i]);
   }
+  make_net(*tiles, around);
   SystemVerdict verdict;
-  test_system(patches[0], patches[1], kQuality, &verdict);
+  test_system(net_, kQuality, &verdict);
   if (!verdict.contracts) return std::nullopt;
   return verdict.contraction;
 }
@@ -381,7 +385,7 @@ std::optional<int> PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf,
 
 /// The part of a box with given local coordinates, or a little more. (Neighbouring doubles may be
 /// far apart for a small box.)
-Box<2> part_of(const Box<2>& box, const Box<2>& local) {
+Box<2> inner_box(const Box<2>& box, const Box<2>& local) {
   Box<2> part = box;
   for (int i = 0; i < 2; ++i) {
     const Centered chart = centered(box.lo[i], box.hi[i]);
@@ -393,8 +397,27 @@ Box<2> part_of(const Box<2>& box, const Box<2>& local) {
   return part;
 }
 
+/// Whether the slopes of a net tell something about those of the polynomials.
+bool has_slopes(const CubicSystem& net) {
+  for (int i = 0; i < 2; ++i)
+    if (!(std::max(net.slope_radius[i][0], net.slope_radius[i][1]) < 0.2 * (net.hi[i] - net.lo[i])))
+      return false;
+  return true;
+}
+
+/// The net on a part of the node's box: from the node's if it is the first look, else from its base
+/// or its tiles.
+void PlaneRoots::look(const PlaneSubdivision<2>::Node& node, const Box<2>& box, bool first) {
+  if (first && has_slopes(node.net)) {
+    restrict_to(node.net, part_of(chart_of(node.box), box), &net_);
+    return;
+  }
+  restrict_to(node.base->source, part_of(node.base->chart, box), &net_);
+  if (coarse(net_, 0)) make_net(node.tile, box);
+}
+
 std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box<2>* part) {
-  test_system(node.patch[0], node.patch[1], kQuality, &verdict_);
+  test_system(node.net, kQuality, &verdict_);
   Box<2> box = node.box;
   for (int round = 0;; ++round) {
     if (verdict_.excluded) return cover::kExcluded;
@@ -412,13 +435,11 @@ std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box
     // Where all zeros lie in a small part, a closer look at that part is worth its price.
     if (round == kCloserLooks || zeros.width(0) * zeros.width(1) > 4 * kSmallPart)
       return std::nullopt;
-    box = part_of(box, zeros);
+    box = inner_box(box, zeros);
     if (!(box.width(0) > 0 && box.width(1) > 0)) return std::nullopt;
-    for (int i = 0; i < 2; ++i) {
-      expand(*node.tile[i], box, count_, &patches_[i]);
-      if (patches_[i].sign()) return cover::kExcluded;
-    }
-    test_system(patches_[0], patches_[1], kQuality, &verdict_);
+    look(node, box, round == 0);
+    if (net_.excluded()) return cover::kExcluded;
+    test_system(net_, kQuality, &verdict_);
   }
 }
 
@@ -432,12 +453,9 @@ RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g, const Box
   PlaneRoots roots(f, g, kernel);
   const auto visit = [&](PlaneSubdivision<2>::Node& node) {
     if (const auto token = roots.settle(node, &node.part)) return *token;
-    if (node.level < kUsualLevels) return wider_axis(node.box);
+    if (node.level < kSimpleLevels) return wider_axis(node.box);
     // Across the axis along which they change more: curves that touch or share a tangent there.
-    const Patch &p = node.patch[0], &q = node.patch[1];
-    const auto v = variation(p), w = variation(q);
-    const double x = v[0] / (p.magnitude() + 1e-300) + w[0] / (q.magnitude() + 1e-300),
-                 y = v[1] / (p.magnitude() + 1e-300) + w[1] / (q.magnitude() + 1e-300);
+    const auto [x, y] = relative_variation(node.net);
     return x >= y ? cover::kSplitX : cover::kSplitY;
   };
   PlaneSubdivision<2> subdivision({&f, &g}, result.root_box, half_planes, limits, kernel);

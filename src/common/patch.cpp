@@ -19,40 +19,9 @@
 #define ENCASE_PATCH_SHARED
 namespace encase {
 
-/// Interpolation at the nodes of Chebyshev, and from there to Bernstein coefficients: constants.
-struct Interpolation {
-  int count = 0;
-  alignas(64) std::array<double, 8> node{};
-  /// coefficient j = sum over k of matrix[j][k] value(node[k]); by_lane[k] holds column k, its last
-  /// entry repeated.
-  std::array<std::array<double, 8>, 8> matrix{};
-  alignas(64) std::array<std::array<double, 8>, 8> by_lane{};
-  double norm = 0;  ///< at least the sums of absolute values of the exact matrix' rows
-};
-
 /// The least and greatest numbers among the coefficients of a net.
 struct Extremes {
   double lo, hi;
-};
-
-/// The extremes of a net's coefficients and its distance from the polynomial, as combinations need
-/// them.
-struct Measure {
-  double magnitude, radius;
-};
-
-/// A system's nets, combined with the rows of a matrix Y.
-struct Preconditioned {
-  Matrix<2> y;    ///< the inverse of the mean Jacobian, or its adjugate
-  bool regular;   ///< the inverse exists
-  bool excluded;  ///< one of the combinations keeps a sign
-  bool linear;    ///< there are slopes: the combinations are not too far from the coordinates
-  std::array<double, 2> rounding;  ///< of the combinations' coefficients
-  std::array<double, 2> radius;    ///< of the combinations, rounding included
-  /// If regular and not excluded: the extremes of combination c less the coordinate c.
-  std::array<Extremes, 2> rest;
-  /// If linear: the extremes of the differences across rows and across lanes.
-  std::array<std::array<Extremes, 2>, 2> slope;
 };
 
 }  // namespace encase
@@ -152,76 +121,6 @@ HWY_INLINE void halve_rows(Row* t, Row* lower, Row* upper, Extremes* extremes) {
   }
   extremes[0] = low.extremes();
   extremes[1] = high.extremes();
-}
-
-/// The extremes of differences of neighbours across rows and across lanes.
-template <int N>
-HWY_INLINE void extremes_of_differences(const Row* rows, const double* memory,
-                                        Extremes* across_rows, Extremes* across_lanes) {
-  Extent d(rows[1] - rows[0]);
-  for (int i = 1; i + 1 < N; ++i) d.add(rows[i + 1] - rows[i]);
-  *across_rows = d.extremes();
-  Extent e(Row::load_unaligned(memory + 1) - rows[0]);
-  for (int i = 1; i < N; ++i) e.add(Row::load_unaligned(memory + 8 * i + 1) - rows[i]);
-  e.keep_lanes(N - 1);  // the others have no neighbour
-  *across_lanes = e.extremes();
-}
-
-template <int N>
-HWY_INLINE void mean_slopes(const Net& net, double* across_rows, double* across_lanes) {
-  const Row difference = Row::load(net[N - 1].data()) - Row::load(net[0].data());
-  *across_rows = 0.5 / N * sum_of_lanes(first_lanes(difference, Row::all(0), N));
-  double sum = 0;
-  for (int i = 0; i < N; ++i) sum += net[i][N - 1] - net[i][0];
-  *across_lanes = 0.5 / N * sum;
-}
-
-/// Combines the nets with the rows of the matrix.
-template <int N>
-HWY_INLINE void combine_nets(const Net& f, const Net& g, const Measure& of_f, const Measure& of_g,
-                             Preconditioned* result) {
-  HWY_ALIGN double memory[2][8 * N + 8];
-  Row rows[2][N];
-  result->excluded = false;
-  for (int c = 0; c < 2; ++c) {
-    const double a = result->y[c][0], b = result->y[c][1];
-    const Row alpha = Row::all(a), beta = Row::all(b);
-    rows[c][0] = alpha * Row::load(f[0].data()) + beta * Row::load(g[0].data());
-    Extent extent(rows[c][0]);
-    for (int i = 1; i < N; ++i) {
-      rows[c][i] = alpha * Row::load(f[i].data()) + beta * Row::load(g[i].data());
-      extent.add(rows[c][i]);
-    }
-    // Two products and a sum round.
-    const double first = a < 0 ? -a : a, second = b < 0 ? -b : b;
-    result->rounding[c] =
-        3 * 0x1p-53 * (first * of_f.magnitude + second * of_g.magnitude) * (1 + 0x1p-40) +
-        0x1p-1000;
-    result->radius[c] =
-        (first * of_f.radius + second * of_g.radius + result->rounding[c]) * (1 + 0x1p-40);
-    const Extremes e = extent.extremes();
-    result->excluded = result->excluded || e.lo > result->radius[c] || e.hi < -result->radius[c];
-  }
-  if (result->excluded || !result->regular) return;
-  HWY_ALIGN double lanes[8];
-  constexpr double step = 2.0 / (N - 1);
-  for (int j = 0; j < 8; ++j) lanes[j] = (j < N ? j : N - 1) * step - 1;
-  const Row across = Row::load(lanes);
-  for (int c = 0; c < 2; ++c) {
-    Extent rest(rows[c][0] - (c == 0 ? Row::all(-1) : across));
-    for (int i = 1; i < N; ++i) rest.add(rows[c][i] - (c == 0 ? Row::all(i * step - 1) : across));
-    result->rest[c] = rest.extremes();
-  }
-  // Slopes close to those of the coordinates would keep the rests small.
-  constexpr double kMost = 2.5;
-  result->linear = result->rest[0].hi - result->rest[0].lo < kMost &&
-                   result->rest[1].hi - result->rest[1].lo < kMost;
-  if (!result->linear) return;
-  for (int c = 0; c < 2; ++c) {
-    for (int i = 0; i < N; ++i) rows[c][i].store(memory[c] + 8 * i);
-    rows[c][N - 1].store(memory[c] + 8 * N);
-    extremes_of_differences<N>(rows[c], memory[c], &result->slope[c][0], &result->slope[c][1]);
-  }
 }
 
 /// The extremes of the first differences across rows and across lanes; and, where neither keeps a
@@ -368,41 +267,6 @@ void halve_patch(const Net& net, int count, bool along_lanes, double radius, Net
   });
 }
 
-void turn_net(int count, Net* net) {
-  with_count(count, [&]<int N>() HWY_ATTR {
-    Row rows[8];
-    for (int i = 0; i < N; ++i) rows[i] = Row::load((*net)[i].data());
-    store_transposed<N>(rows, net);
-  });
-}
-
-void precondition(const Net& f, const Net& g, int count, const Measure& of_f, const Measure& of_g,
-                  Preconditioned* result) {
-  with_count(count, [&]<int N>() HWY_ATTR {
-    Matrix<2> j;
-    mean_slopes<N>(f, &j[0][0], &j[0][1]);
-    mean_slopes<N>(g, &j[1][0], &j[1][1]);
-    const double scale = 1 / (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
-    result->regular = scale > -1e300 && scale < 1e300;
-    const double s = result->regular ? scale : 1;
-    result->y = {{{j[1][1] * s, -j[0][1] * s}, {-j[1][0] * s, j[0][0] * s}}};
-    combine_nets<N>(f, g, of_f, of_g, result);
-  });
-}
-
-void first_derivatives(const Net& net, int count, Extremes* across_rows, Extremes* across_lanes) {
-  with_count(count, [&]<int N>() HWY_ATTR {
-    HWY_ALIGN double memory[8 * N + 8];
-    Row rows[N];
-    for (int i = 0; i < N; ++i) {
-      rows[i] = Row::load(net[i].data());
-      rows[i].store(memory + 8 * i);
-    }
-    rows[N - 1].store(memory + 8 * N);
-    extremes_of_differences<N>(rows, memory, across_rows, across_lanes);
-  });
-}
-
 bool test_gradient(const Net& net, int count, double magnitude, const double* radius,
                    Extremes* slope) {
   bool result = false;
@@ -424,9 +288,6 @@ namespace {
 
 HWY_EXPORT(expand_patch);
 HWY_EXPORT(halve_patch);
-HWY_EXPORT(turn_net);
-HWY_EXPORT(precondition);
-HWY_EXPORT(first_derivatives);
 HWY_EXPORT(test_gradient);
 HWY_EXPORT(second_derivatives);
 
@@ -434,35 +295,60 @@ constexpr double kUnit = 0x1p-53;
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
 constexpr double kTiny = 0x1p-1000;  // more than what gradual underflow can lose
 
-/// The Bernstein coefficients on [-1,1] of the polynomials that are 1 at one node and 0 at the
-/// others: products of linear factors, exactly, then rounded.
-Interpolation make_interpolation(int count) {
+enum class Basis { Bernstein, Chebyshev };
+
+/// The product of a polynomial and the linear function with the values `minus` and `plus` at the
+/// ends of [-1,1]; Bernstein coefficients are scaled by binomials.
+std::vector<Rational> product(const std::vector<Rational>& p, const Rational& minus,
+                              const Rational& plus, Basis basis) {
+  std::vector<Rational> result(p.size() + 1, Rational(0));
+  const Rational mean = (plus + minus) / 2, slope = (plus - minus) / 2;
+  for (std::size_t j = 0; j < p.size(); ++j) {
+    if (basis == Basis::Bernstein) {
+      result[j] += p[j] * minus;
+      result[j + 1] += p[j] * plus;
+    } else {
+      // s T_j = (T_(j+1) + T_|j-1|) / 2.
+      result[j] += p[j] * mean;
+      result[j + 1] += p[j] * slope / 2;
+      result[j > 0 ? j - 1 : 1] += p[j] * slope / 2;
+    }
+  }
+  return result;
+}
+
+/// The nodes, symmetric; the last one repeated.
+std::array<double, 8> chebyshev_nodes(int count) {
+  std::array<double, 8> node;
+  const int n = count - 1;
+  for (int k = 0; k < 8; ++k) {
+    const int index = std::min(k, n), mirror = n - index;
+    const double x = std::cos(std::numbers::pi * (2 * std::min(index, mirror) + 1) / (2 * count));
+    node[k] = index == mirror ? 0.0 : index < mirror ? -x : x;
+  }
+  return node;
+}
+
+/// The coefficients on [-1,1] of the polynomials that are 1 at one node and 0 at the others:
+/// products of linear factors, exactly, then rounded.
+Interpolation make_interpolation(int count, Basis basis) {
   Interpolation table;
   table.count = count;
+  table.node = chebyshev_nodes(count);
   const int n = count - 1;
-  for (int k = 0; k < count; ++k) {
-    const int mirror = n - k;
-    const double x = std::cos(std::numbers::pi * (2 * std::min(k, mirror) + 1) / (2 * count));
-    table.node[k] = k == mirror ? 0.0 : k < mirror ? -x : x;
-  }
-  for (int k = count; k < 8; ++k) table.node[k] = table.node[n];
   std::vector<Rational> norms(count, Rational(0));
   for (int k = 0; k < count; ++k) {
-    // Coefficients scaled by binomials: those of the product of l(s) = l(-1) (1-u) + l(1) u.
-    std::vector<Rational> product{Rational(1)};
+    std::vector<Rational> of_node{Rational(1)};
     for (int m = 0; m < count; ++m) {
       if (m == k) continue;
       const Rational step = Rational(table.node[k]) - Rational(table.node[m]);
-      const Rational at_minus = (-1 - Rational(table.node[m])) / step;
-      const Rational at_plus = (1 - Rational(table.node[m])) / step;
-      product.emplace_back(0);
-      for (std::size_t j = product.size() - 1; j > 0; --j)
-        product[j] = product[j] * at_minus + product[j - 1] * at_plus;
-      product[0] *= at_minus;
+      of_node = product(of_node, (-1 - Rational(table.node[m])) / step,
+                        (1 - Rational(table.node[m])) / step, basis);
     }
     Integer choose = 1;
     for (int j = 0; j <= n; ++j) {
-      const Rational entry = product[j] / Rational(choose);
+      const Rational entry =
+          basis == Basis::Bernstein ? Rational(of_node[j] / Rational(choose)) : of_node[j];
       table.matrix[j][k] = nearest_double(entry);
       norms[j] += abs(entry);
       choose = choose * (n - j) / (j + 1);
@@ -472,15 +358,6 @@ Interpolation make_interpolation(int count) {
     for (int j = 0; j < 8; ++j) table.by_lane[k][j] = table.matrix[std::min(j, n)][k];
   for (const Rational& norm : norms) table.norm = std::max(table.norm, norm.get_d() * kUp);
   return table;
-}
-
-const Interpolation& interpolation(int count) {
-  static const std::array<Interpolation, 9> tables = [] {
-    std::array<Interpolation, 9> all;
-    for (int k = 3; k <= Patch::kMaxCount; ++k) all[k] = make_interpolation(k);
-    return all;
-  }();
-  return tables[count];
 }
 
 /// Every coefficient of a net may be off by `change`.
@@ -506,6 +383,34 @@ Extremes widened(const Extremes& e, double factor, double radius) {
 
 }  // namespace
 
+namespace {
+
+/// Tables are made when they are first asked for: rational arithmetic takes its time.
+template <int count>
+const Interpolation& interpolation_of() {
+  static const Interpolation table = make_interpolation(count, Basis::Bernstein);
+  return table;
+}
+
+}  // namespace
+
+const Interpolation& interpolation(int count) {
+  switch (count) {
+    case 3:
+      return interpolation_of<3>();
+    case 4:
+      return interpolation_of<4>();
+    case 5:
+      return interpolation_of<5>();
+    case 6:
+      return interpolation_of<6>();
+    case 7:
+      return interpolation_of<7>();
+    default:
+      return interpolation_of<8>();
+  }
+}
+
 const InterpolationLoss& interpolation_loss(int k) {
   // s^k minus its interpolant is w(s) h(s), where w is the product of (s - node), and h is the
   // complete homogeneous polynomial of degree k - 8 in s and the nodes. The nodes come in pairs
@@ -514,7 +419,7 @@ const InterpolationLoss& interpolation_loss(int k) {
   // 128 but for the rounding of the nodes: its derivatives are at most 64/128 and 1344/128.
   static const auto table = [] {
     std::array<InterpolationLoss, Tile::kMaxDegree + 1> losses{};
-    const auto& node = interpolation(8).node;
+    const auto node = chebyshev_nodes(8);
     std::array<double, 4> e{1, 0, 0, 0};
     for (int i = 0; i < 4; ++i)
       for (int j = 1; j < 4; ++j) e[j] += e[j - 1] * node[i] * node[i];
@@ -538,48 +443,87 @@ const InterpolationLoss& interpolation_loss(int k) {
 int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
 
 InterpolationLoss interpolation_loss(const Tile& tile, double part) {
-  InterpolationLoss sum{0, 0, 0};
-  for (int k = tile.degree; k >= 8; --k) {
-    const InterpolationLoss& power = interpolation_loss(k);
-    const double size = tile.high_terms[k - 8];
-    sum = {sum.value * part + size * power.value, sum.slope * part + size * power.slope,
-           sum.bend * part + size * power.bend};
+  // By the kind of loss and the power.
+  static const auto weights = [] {
+    std::array<std::array<double, 8>, 3> w;
+    for (int k = 0; k < 8; ++k) {
+      const InterpolationLoss& power = interpolation_loss(8 + k);
+      w[0][k] = power.value;
+      w[1][k] = power.slope;
+      w[2][k] = power.bend;
+    }
+    return w;
+  }();
+  if (tile.degree < 8) return {0, 0, 0};
+  const double square = part * part, fourth = square * square;
+  double power = fourth * fourth * kUp;
+  std::array<double, 3> sum{0, 0, 0};
+  for (int k = 0; k < 8; ++k, power *= part) {
+    const double size = tile.high_terms[k] * power;
+    for (int i = 0; i < 3; ++i) sum[i] += size * weights[i][k];
   }
-  const double square = part * part, eighth = square * square * square * square * kUp;
-  return {sum.value * eighth, sum.slope * eighth, sum.bend * eighth};
+  return {sum[0], sum[1], sum[2]};
 }
 
-void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
-  const Interpolation& table = interpolation(count);
-  patch->count = table.count;
-  patch->rows_axis = 0;
+namespace {
+
+/// What `expand` says of a net in any basis.
+struct Expanded {
+  Extremes extremes;
+  Point<2> part;           ///< the half widths of the box in the coordinates of the tile
+  InterpolationLoss loss;  ///< by the low degree
+  double rounding;         ///< of every coefficient
+};
+Expanded expand_with(const Interpolation& table, const Tile& tile, const Box<2>& box,
+                     std::array<std::array<double, 8>, 8>* net) {
+  Expanded e;
   // (HWY_ALIGN is that of the scalar path here.)
   alignas(64) std::array<std::array<double, 8>, 2> at;
-  Point<2> part;
   for (int i = 0; i < 2; ++i) {
     const Centered chart = centered(box.lo[i], box.hi[i]);
     const double origin = (chart.center - tile.center[i]) / tile.half[i];
-    part[i] = chart.half / tile.half[i];
-    for (int k = 0; k < 8; ++k) at[i][k] = origin + part[i] * table.node[k];
+    e.part[i] = chart.half / tile.half[i];
+    for (int k = 0; k < 8; ++k) at[i][k] = origin + e.part[i] * table.node[k];
   }
-  const Extremes extremes = HWY_DYNAMIC_DISPATCH(expand_patch)(
-      tile.a[0].data(), tile.degree, at[0].data(), at[1].data(), table, &patch->b);
-  patch->lo = extremes.lo;
-  patch->hi = extremes.hi;
-  // The loss by the low degree and the tile's own error, in the coordinates of the box.
-  const double fraction = std::max(part[0], part[1]) * kUp;
-  const InterpolationLoss loss = interpolation_loss(tile, fraction);
-  patch->radius = loss.value + tile.error;
-  for (int i = 0; i < 2; ++i) patch->slope_radius[i] = loss.slope + tile.slope_error * part[i];
-  patch->bend_radius = {loss.bend + tile.bend_error * part[0] * part[0],
-                        loss.bend + tile.bend_error * part[1] * part[1],
-                        loss.bend + tile.bend_error * part[0] * part[1]};
+  e.extremes = HWY_DYNAMIC_DISPATCH(expand_patch)(tile.a[0].data(), tile.degree, at[0].data(),
+                                                  at[1].data(), table, net);
+  e.loss = interpolation_loss(tile, std::max(e.part[0], e.part[1]) * kUp);
   // Samples: Horner's rule twice, at points that are off by less than 2^-50; then two matrix
   // products.
   const double n = tile.degree;
   const double sample = 1.01 * kUnit * (4 * n + 2) * tile.sum + 0x1p-49 * tile.slope;
   const double products = 1.01 * kUnit * 2 * (table.count + 2) * tile.sum;
-  add_rounding(patch, table.norm * table.norm * (sample + products) * kUp + kTiny);
+  e.rounding = table.norm * table.norm * (sample + products) * kUp + kTiny;
+  return e;
+}
+
+}  // namespace
+
+void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
+  const Expanded e = expand_with(interpolation(count), tile, box, &patch->b);
+  const Point<2>& part = e.part;
+  const InterpolationLoss& loss = e.loss;
+  patch->count = count;
+  patch->rows_axis = 0;
+  patch->lo = e.extremes.lo;
+  patch->hi = e.extremes.hi;
+  // The loss by the low degree and the tile's own error, in the coordinates of the box.
+  patch->radius = loss.value + tile.error;
+  for (int i = 0; i < 2; ++i) patch->slope_radius[i] = loss.slope + tile.slope_error * part[i];
+  patch->bend_radius = {loss.bend + tile.bend_error * part[0] * part[0],
+                        loss.bend + tile.bend_error * part[1] * part[1],
+                        loss.bend + tile.bend_error * part[0] * part[1]};
+  add_rounding(patch, e.rounding);
+}
+
+void expand(const Tile& tile, const Box<2>& box, ChebyshevNet* net) {
+  static const Interpolation table = make_interpolation(8, Basis::Chebyshev);
+  const Expanded e = expand_with(table, tile, box, &net->c);
+  // 64 coefficients; derivatives of T_k are at most k^2.
+  net->radius = (e.loss.value + tile.error + 64 * e.rounding) * kUp;
+  for (int i = 0; i < 2; ++i)
+    net->slope_radius[i] =
+        (e.loss.slope + tile.slope_error * e.part[i] + 8 * 140 * e.rounding) * kUp;
 }
 
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper) {
@@ -609,84 +553,6 @@ void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper)
     child->bend_radius = bend;
     ++k;
   }
-}
-
-void turn(Patch* patch) {
-  HWY_DYNAMIC_DISPATCH(turn_net)(patch->count, &patch->b);
-  patch->rows_axis = 1 - patch->rows_axis;
-  std::swap(patch->slope_radius[0], patch->slope_radius[1]);
-  std::swap(patch->bend_radius[0], patch->bend_radius[1]);
-}
-
-std::array<double, 2> variation(const Patch& patch) {
-  Extremes slope[2];
-  HWY_DYNAMIC_DISPATCH(first_derivatives)(patch.b, patch.count, &slope[0], &slope[1]);
-  std::array<double, 2> result;
-  for (int i = 0; i < 2; ++i)
-    result[i == 0 ? patch.rows_axis : 1 - patch.rows_axis] = std::max(-slope[i].lo, slope[i].hi);
-  return result;
-}
-
-namespace {
-
-/// A positive v with E v < quality v, if there is one: with it (quality I - E) v is a multiple of
-/// (1, 1).
-bool find_weights(const Matrix<2>& e, double quality, std::array<double, 2>* v) {
-  const double a = quality - e[0][0], b = quality - e[1][1];
-  if (!(a > 0 && b > 0 && a * b > e[0][1] * e[1][0])) return false;
-  const double largest = std::max(b + e[0][1], a + e[1][0]);
-  *v = {(b + e[0][1]) / largest, (a + e[1][0]) / largest};
-  for (int k = 0; k < 2; ++k)
-    if (!((e[k][0] * (*v)[0] + e[k][1] * (*v)[1]) * kUp < quality * (*v)[k])) return false;
-  return true;
-}
-
-}  // namespace
-
-void test_system(const Patch& f, const Patch& g, double quality, SystemVerdict* verdict) {
-  if (f.rows_axis != g.rows_axis) {
-    Patch turned = g;
-    turn(&turned);
-    return test_system(f, turned, quality, verdict);
-  }
-  Preconditioned system;
-  HWY_DYNAMIC_DISPATCH(precondition)
-  (f.b, g.b, f.count, {f.magnitude(), f.radius}, {g.magnitude(), g.radius}, &system);
-  verdict->excluded = system.excluded;
-  verdict->contracts = false;
-  verdict->zeros = Box<2>{{-1, -1}, {1, 1}};
-  if (system.excluded || !system.regular) return;
-  // The coordinates that belong to rows and lanes, and to the combinations.
-  const std::array<int, 2> axis{f.rows_axis, 1 - f.rows_axis};
-  for (int c = 0; c < 2; ++c) {
-    // A zero has s + rest = 0.
-    const Extremes& rest = system.rest[c];
-    const double slack =
-        (system.radius[c] + 8 * kUnit * (2 + std::fabs(rest.lo) + std::fabs(rest.hi))) * kUp;
-    verdict->zeros.lo[axis[c]] = -rest.hi - slack;
-    verdict->zeros.hi[axis[c]] = -rest.lo + slack;
-    if (-rest.hi - slack > 1 || -rest.lo + slack < -1) verdict->excluded = true;
-  }
-  if (verdict->excluded || !system.linear) return;
-  Contraction<2>& contraction = verdict->contraction;
-  const double factor = 0.5 * (f.count - 1);
-  for (int c = 0; c < 2; ++c) {
-    contraction.preconditioner[axis[c]] = system.y[c];
-    const double alpha = std::fabs(system.y[c][0]), beta = std::fabs(system.y[c][1]);
-    for (int i = 0; i < 2; ++i) {
-      const double lo = factor * system.slope[c][i].lo, hi = factor * system.slope[c][i].hi;
-      const double center = i == c ? 1.0 : 0.0;
-      const double deviation = std::max(hi - center, center - lo);
-      const double radius = alpha * f.slope_radius[i] + beta * g.slope_radius[i];
-      // Differences and products round; the deviation is rounded up.
-      contraction.bound[axis[c]][axis[i]] =
-          (std::max(deviation, 0.0) + radius + 2 * factor * system.rounding[c] +
-           4 * kUnit * (std::fabs(lo) + std::fabs(hi) + 1)) *
-              kUp +
-          kTiny;
-    }
-  }
-  verdict->contracts = find_weights(contraction.bound, quality, &contraction.weights);
 }
 
 namespace {

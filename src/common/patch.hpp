@@ -4,7 +4,6 @@
 #include <array>
 #include <optional>
 
-#include "common/box_tests.hpp"
 #include "common/tile.hpp"
 #include "encase/geometry.hpp"
 
@@ -37,6 +36,20 @@ struct Patch {
   double magnitude() const { return hi > -lo ? hi : -lo; }
 };
 
+/// Interpolation at the nodes of Chebyshev, and from there to the coefficients of a basis:
+/// constants.
+struct Interpolation {
+  int count = 0;
+  alignas(64) std::array<double, 8> node{};
+  /// coefficient j = sum over k of matrix[j][k] value(node[k]); by_lane[k] holds column k, its last
+  /// entry repeated.
+  std::array<std::array<double, 8>, 8> matrix{};
+  alignas(64) std::array<std::array<double, 8>, 8> by_lane{};
+  double norm = 0;  ///< at least the sums of absolute values of the exact matrix' rows
+};
+/// To 3 to 8 Bernstein coefficients.
+const Interpolation& interpolation(int count);
+
 /// The number of coefficients in either variable that patches of polynomials up to a degree have.
 int patch_count(int degree);
 
@@ -55,32 +68,26 @@ InterpolationLoss interpolation_loss(const Tile& tile, double part);
 /// degree) on a box inside the tile's rectangle, rows along x.
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch);
 
+/// A tensor Chebyshev net of degree 7: row i belongs to T_i in x, lane j to T_j in y. The radii are
+/// those of a patch.
+struct ChebyshevNet {
+  alignas(64) std::array<std::array<double, 8>, 8> c;
+  double radius = 0;
+  std::array<double, 2> slope_radius{};
+};
+void expand(const Tile& tile, const Box<2>& box, ChebyshevNet* net);
+
 /// The halves across an axis (their rows run along the other one). Without `whole`, of a half on
 /// which f has a proved sign only that is valid: lo, hi and radius. `patch` may be one of the
 /// halves.
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper);
 
-/// What the patches of two polynomials on one box, of equal counts, prove about their common zeros.
-struct SystemVerdict {
-  SystemVerdict() {}  // nothing is set: most of it is seldom needed
-
-  bool excluded;  ///< there is none in the closed box
-  Box<2> zeros;   ///< all of them lie here, in the coordinates of the box
-  bool contracts;
-  Contraction<2> contraction;  ///< if it contracts: there is at most one, a simple one
-};
-void test_system(const Patch& f, const Patch& g, double quality, SystemVerdict* verdict);
-
-/// Makes the rows run along the other axis.
-void turn(Patch* patch);
-
-/// How much f changes along x and along y: the largest difference of neighbouring coefficients.
-std::array<double, 2> variation(const Patch& patch);
-
 /// What a patch proves about critical points.
 struct CriticalVerdict {
   bool excluded = false;  ///< as no_relevant_critical_point (box_tests.hpp), with little effort
-  std::array<double, 2> variation{};  ///< as above; unless excluded
+  /// How much f changes along x and along y, unless excluded: the largest difference of
+  /// neighbouring coefficients.
+  std::array<double, 2> variation{};
 };
 CriticalVerdict test_critical(const Patch& patch);
 

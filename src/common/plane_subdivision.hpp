@@ -6,8 +6,10 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
+#include "common/cubic_system.hpp"
 #include "common/patch.hpp"
 #include "common/subdivision.hpp"
 #include "common/tile.hpp"
@@ -49,8 +51,17 @@ inline std::optional<bool> lies_inside(const Box<2>& box, const std::vector<Line
   return std::nullopt;
 }
 
-/// The subdivision of a box of the plane, with the patches of N polynomials on the boxes. Of
-/// several polynomials the common zeros are sought: a box on which one keeps a sign is excluded.
+/// Two polynomials on one box, from which the cubic nets on boxes within it are made.
+struct CubicBase {
+  std::array<CubicSource, 2> source;
+  std::array<const Tile*, 2> tile;  ///< that they come from; their rectangles contain the box
+  Chart chart;                      ///< of the box
+  int level;                        ///< of the box
+};
+
+/// The subdivision of a box of the plane, with a patch of one polynomial on the boxes, or with
+/// cubic nets of two: then their common zeros are sought, and a box on which one keeps a sign is
+/// excluded.
 ///
 /// Depth first, so that what is at hand stays in the cache, but in bands: what is not settled at
 /// the end of one band of widths waits until everything else has come as far, so that a budget is
@@ -61,16 +72,17 @@ class PlaneSubdivision {
   /// What `visit` is given: a box and the patches on it.
   struct Node {
     Box<2> box;
-    std::array<Patch, N> patch;
-    /// The tiles that the patches come from. Their rectangles contain the box.
+    std::conditional_t<N == 1, Patch, CubicSystem> net;
+    /// The tiles that the net comes from. Their rectangles contain the box.
     std::array<const Tile*, N> tile{};
-    std::array<int, N> expanded_at{};  ///< the level of the box that the patch was made for
+    int expanded_at = 0;              ///< the level of the box that the patch was made for
+    const CubicBase* base = nullptr;  ///< on a box that contains this one
     /// The part, in the box's coordinates, outside of which nothing that is sought lies. A visitor
     /// may set it; halves that do not meet it are settled as excluded.
     Box<2> part;
     int level = 0;        ///< number of halvings
     bool inside = false;  ///< known to lie in all half planes
-    bool has_patches = false;
+    bool has_net = false;
     bool excluded = false;
   };
 
@@ -83,8 +95,10 @@ class PlaneSubdivision {
         limits_(limits),
         kernel_(kernel),
         stack_(std::make_unique_for_overwrite<Node[]>(kLevelsPerBand + 2)) {
-    for (const TiledPolynomial* f : polynomials)
-      count_ = std::max(count_, patch_count(f->polynomial().degree()));
+    if (N == 1)
+      count_ = patch_count(polynomials[0]->polynomial().degree());
+    else
+      bases_ = std::make_unique_for_overwrite<CubicBase[]>(kLevelsPerBand + 1);
   }
 
   /// `visit(node)` returns the token that settles the box, or a split token. Returns the tokens in
@@ -111,9 +125,11 @@ class PlaneSubdivision {
   void descend(const Box<2>& box, int level, int budget, Visit visit);
   template <class Visit>
   int token_of(Node& node, Visit visit);
-  bool provide_patches(Node& node);
-  bool provide_patch(Node& node, int i);
-  bool coarse(const Node& node, int i) const;
+  bool provide_net(Node& node);
+  bool provide_base(Node& node);
+  bool make_cubic(Node& node);
+  template <class Net>
+  bool make_net(const Node& node, int i, Net* net, const Tile** tile);
   bool outside(Node& node) const;
   const Tile* local_tile(const Node& node, int i, int bits);
   void settle(int token, const Node& node);
@@ -131,9 +147,11 @@ class PlaneSubdivision {
   std::vector<Waiting> waiting_;
   std::unique_ptr<Node[]> stack_;
   std::array<std::vector<Local>, N> local_;
-  int count_ = 0;    ///< of the patches' coefficients in either variable
-  int boxes_ = 0;    ///< visited; those that had to wait twice
-  int deepest_ = 0;  ///< the level beyond which nothing is halved
+  std::unique_ptr<CubicBase[]> bases_;  ///< those of a node's ancestors, by level in the band
+  int first_level_ = 0;                 ///< of the band
+  int count_ = Patch::kMaxCount;        ///< of the patches' coefficients in either variable
+  int boxes_ = 0;                       ///< visited; those that had to wait twice
+  int deepest_ = 0;                     ///< the level beyond which nothing is halved
   bool stopped_ = false;
   bool unresolved_ = false;
 };
@@ -175,11 +193,14 @@ template <class Visit>
 void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visit visit) {
   for (auto& list : local_) list.clear();
   const int last_level = std::min(level + kLevelsPerBand, deepest_);
+  first_level_ = level;
   int top = 0;
   stack_[0].box = box;
   stack_[0].level = level;
-  stack_[0].inside = stack_[0].has_patches = stack_[0].excluded = false;
+  stack_[0].inside = stack_[0].has_net = stack_[0].excluded = false;
   stack_[0].part = kWhole;
+  stack_[0].tile = {};
+  stack_[0].base = nullptr;
   int here = 0;
   while (top >= 0) {
     Node& node = stack_[top];
@@ -211,16 +232,23 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visi
     Node& first = stack_[++top];
     first.tile = second.tile;
     first.expanded_at = second.expanded_at;
+    first.base = second.base;
     first.level = ++second.level;
     first.inside = second.inside;
-    first.has_patches = second.has_patches;
+    first.has_net = second.has_net;
     first.box = lower;
     second.box = upper;
-    if (second.has_patches)
-      for (int i = 0; i < N; ++i)
-        halve(second.patch[i], axis, N == 1, &first.patch[i], &second.patch[i]);
     first.excluded = part.lo[axis] > 0;
     second.excluded = part.hi[axis] < 0;
+    if (second.has_net) {
+      if constexpr (N == 1) {
+        halve(second.net, axis, true, &first.net, &second.net);
+      } else {
+        const auto excluded = halve(second.net, axis, &first.net, &second.net);
+        first.excluded = first.excluded || excluded[0];
+        second.excluded = second.excluded || excluded[1];
+      }
+    }
     first.part = second.part = part;
     // After one halving across an axis the patches tell more than the part.
     for (Node* child : {&first, &second}) {
@@ -239,7 +267,7 @@ void PlaneSubdivision<N>::settle(int token, const Node& node) {
     return;
   }
   int bits = Kernel::kDoubleBits;
-  if (node.has_patches)
+  if (node.has_net)
     for (const Tile* tile : node.tile) bits = std::max(bits, tile->bits);
   kernel_.count(bits);
 }
@@ -248,19 +276,15 @@ template <int N>
 template <class Visit>
 int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
   if (node.excluded) return cover::kExcluded;
-  // Of several polynomials all must vanish. (A patch of proved sign has no coefficients any more.)
-  if (N > 1 && node.has_patches)
-    for (const Patch& patch : node.patch)
-      if (patch.sign()) return cover::kExcluded;
   // A half that is free need not be asked about.
-  if (node.has_patches)
+  if (node.has_net)
     for (int axis = 0; axis < 2; ++axis)
       if ((node.part.hi[axis] < 0 || node.part.lo[axis] > 0) &&
           node.box.width(axis) > 0.3 * node.box.width(1 - axis))
         return cover::kSplitX - axis;
   node.part = kWhole;
   if (!node.inside && outside(node)) return cover::kOutside;
-  if (!provide_patches(node)) return wider_axis(node.box);
+  if (!provide_net(node)) return node.excluded ? cover::kExcluded : wider_axis(node.box);
   return visit(node);
 }
 
@@ -272,69 +296,131 @@ bool PlaneSubdivision<N>::outside(Node& node) const {
   return where == false;
 }
 
-template <int N>
-bool PlaneSubdivision<N>::coarse(const Node& node, int i) const {
-  const Patch& patch = node.patch[i];
-  // Small boxes are where curves touch or nearly touch, and only the last digits tell them apart.
-  const double tolerated = node.level > kLevelsPerBand ? 0x1p-26 : 0x1p-4;
+/// How far a net may be from its polynomial, beside its size. Small boxes are where curves touch or
+/// nearly touch, and only the last digits tell them apart.
+constexpr int kUsualLevels = 18;  // of halvings
+inline double tolerated(int level, double usual) { return level > kUsualLevels ? 0x1p-26 : usual; }
+
+inline bool coarse(const Patch& patch, int level) {
+  const double part = tolerated(level, 0x1p-4);
   const double slope_radius = std::max(patch.slope_radius[0], patch.slope_radius[1]);
-  return !(patch.radius <= tolerated * patch.magnitude() &&
-           slope_radius <= tolerated * (patch.hi - patch.lo));
+  return !(patch.radius <= part * patch.magnitude() &&
+           slope_radius <= part * (patch.hi - patch.lo));
 }
 
-/// Makes the node's patches where they are missing or too coarse; false if the box is too large
-/// for patches.
-template <int N>
-bool PlaneSubdivision<N>::provide_patches(Node& node) {
-  for (int i = 0; i < N; ++i) {
-    if (node.has_patches && (node.expanded_at[i] + 2 > node.level || !coarse(node, i))) continue;
-    // A fresh patch whose chart is larger than the box does not go with one from halving.
-    if (node.has_patches && N > 1 && !halves_exactly(node.box)) continue;
-    if (!provide_patch(node, i)) return false;
+inline bool coarse(const CubicSource& source, int level) {
+  return !(source.radius <= tolerated(level, 0x1p-4) * source.size);
+}
+
+inline bool coarse(const CubicSystem& system, int level) {
+  const double of_value = tolerated(level, 0.1), of_slope = tolerated(level, 4);
+  for (int i = 0; i < 2; ++i) {
+    const double slope_radius = std::max(system.slope_radius[i][0], system.slope_radius[i][1]);
+    if (!(system.radius[i] <= of_value * system.magnitude(i) &&
+          slope_radius <= of_slope * (system.hi[i] - system.lo[i])))
+      return true;
   }
-  for (int i = 1; i < N; ++i)
-    if (node.patch[i].rows_axis != node.patch[0].rows_axis) turn(&node.patch[i]);
-  node.has_patches = true;
+  return false;
+}
+
+/// Makes the node's net where it is missing or too coarse; false if there is none, because the box
+/// is too large or excluded at once.
+template <>
+inline bool PlaneSubdivision<1>::provide_net(Node& node) {
+  if (node.has_net && (node.expanded_at + 2 > node.level || !coarse(node.net, node.level)))
+    return true;
+  if (!make_net(node, 0, &node.net, &node.tile[0])) return false;
+  node.expanded_at = node.level;
+  node.has_net = true;
   return true;
 }
 
+/// Gives the node a base on its own box; false if that is too large, or excluded at once.
+template <>
+inline bool PlaneSubdivision<2>::provide_base(Node& node) {
+  CubicBase& base = bases_[node.level - first_level_];
+  base.tile = node.tile;
+  base.level = node.level;
+  for (int i = 0; i < 2; ++i) {
+    CubicSource& source = base.source[i];
+    source.radius = node.has_net ? node.net.radius[i] : HUGE_VAL;
+    if (!make_net(node, i, &source, &base.tile[i])) return false;
+    node.excluded = source.has_sign();
+    if (node.excluded) return false;
+  }
+  base.chart = chart_of(node.box);
+  node.base = &base;
+  node.tile = base.tile;
+  return true;
+}
+
+/// The node's cubic nets from its base, if something can be expected of them; whether they are
+/// close enough to the polynomials, or prove at once that the box is excluded.
+template <>
+inline bool PlaneSubdivision<2>::make_cubic(Node& node) {
+  const CubicBase& base = *node.base;
+  const Part part = part_of(base.chart, node.box);
+  if (node.level <= kUsualLevels)
+    for (const CubicSource& source : base.source)
+      if (source.radius + cubic_loss(source, part.half).value >
+          0.1 * source.size * std::max(part.half[0], part.half[1]))
+        return false;
+  restrict_to(base.source, part, &node.net);
+  node.has_net = true;
+  node.excluded = node.net.excluded();
+  return node.excluded || !coarse(node.net, node.level);
+}
+
+template <>
+inline bool PlaneSubdivision<2>::provide_net(Node& node) {
+  if (node.has_net && !coarse(node.net, node.level)) return true;
+  if (node.base && make_cubic(node)) return !node.excluded;
+  // A base of its own, unless the last one is hardly larger.
+  const int between = node.level <= kUsualLevels ? 2 : 1;
+  if (!node.base || node.base->level + between <= node.level) {
+    if (!provide_base(node)) return false;
+    make_cubic(node);
+  }
+  return node.has_net && !node.excluded;
+}
+
+/// A net on the node's box from a tile, which replaces the one that was used last; `net->radius` is
+/// what was known with that.
 template <int N>
-bool PlaneSubdivision<N>::provide_patch(Node& node, int i) {
-  const Tile* tile = nullptr;
+template <class Net>
+bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile** used) {
+  const auto make = [&](const Tile& tile) {
+    if constexpr (std::is_same_v<Net, Patch>)
+      expand(tile, node.box, count_, net);
+    else
+      expand(tile, node.box, net);
+  };
   if (node.level < 2 * kLevelsPerBand && local_[i].empty()) {
-    tile = &polynomials_[i]->at(node.box.center());
-    for (int axis = 0; axis < 2; ++axis) {
-      const double part = 0.5 * node.box.width(axis) / tile->half[axis];
-      if (part > 1.01) return false;
-    }
-    if (!node.has_patches) {
-      const double part = std::max(0.5 * node.box.width(0) / tile->half[0],
-                                   0.5 * node.box.width(1) / tile->half[1]);
+    const Tile* tile = &polynomials_[i]->at(node.box.center());
+    Point<2> parts;
+    for (int axis = 0; axis < 2; ++axis)
+      parts[axis] = 0.5 * node.box.width(axis) / tile->half[axis];
+    const double part = std::max(parts[0], parts[1]);
+    if (part > 1.01) return false;
+    if (!*used) {
       double size = 0;
       for (int k = 0; k <= 2; ++k)
         for (int l = 0; k + l <= 2; ++l) size += std::fabs(tile->a[k][l]);
       if (interpolation_loss(*tile, part).slope > 0x1p-4 * size) return false;
     }
-    expand(*tile, node.box, count_, &node.patch[i]);
-    node.tile[i] = tile;
-    node.expanded_at[i] = node.level;
-    if (!coarse(node, i)) return true;
+    make(*tile);
+    *used = tile;
+    if (!coarse(*net, node.level)) return true;
     // What is lost by the low degree shrinks with the box.
-    if (interpolation_loss(*tile, 0.5 * std::max(node.box.width(0) / tile->half[0],
-                                                 node.box.width(1) / tile->half[1]))
-            .value > 0.5 * node.patch[i].radius)
-      return true;
+    if (interpolation_loss(*tile, part).value > 0.5 * net->radius) return true;
   }
   // A tile of the box's own, in double-doubles, then in MPFR.
   for (int bits = kernel_.start_bits; bits > 0; bits = kernel_.next(bits)) {
     if (bits == Kernel::kExtendedBits) continue;
-    const double before = node.patch[i].radius;
-    const bool had = node.tile[i] != nullptr;
-    node.tile[i] = local_tile(node, i, bits);
-    expand(*node.tile[i], node.box, count_, &node.patch[i]);
-    node.expanded_at[i] = node.level;
-    if (!coarse(node, i) ||
-        (had && bits > Kernel::kDoubleBits && !(node.patch[i].radius < 0.5 * before)))
+    const double before = *used ? net->radius : HUGE_VAL;
+    *used = local_tile(node, i, bits);
+    make(**used);
+    if (!coarse(*net, node.level) || (bits > Kernel::kDoubleBits && !(net->radius < 0.5 * before)))
       break;
   }
   return true;

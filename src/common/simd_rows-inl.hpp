@@ -163,6 +163,93 @@ HWY_INLINE void transpose(Row* r) {
 #endif
 }
 
+// Of either half of the lanes, 0 to 3 and 4 to 7.
+
+HWY_INLINE Row swap_halves(const Row& a) {
+  Row r;
+#if HWY_MAX_BYTES == 64
+  r.part[0] = hn::ConcatLowerUpper(Lanes(), a.part[0], a.part[0]);
+#else
+  for (int k = 0; k < kParts; ++k) r.part[k] = a.part[(k + kParts / 2) % kParts];
+#endif
+  return r;
+}
+/// In every lane the result for its half: lanes 1 apart are combined, then 2 apart.
+template <class Combine>
+HWY_INLINE Row fold_halves(const Row& a, Combine combine) {
+  Row r;
+#if HWY_MAX_BYTES >= 32
+  for (int k = 0; k < kParts; ++k) {
+    const Vector pair = combine(a.part[k], hn::Reverse2(Lanes(), a.part[k]));
+    r.part[k] = combine(pair, hn::SwapAdjacentBlocks(pair));
+  }
+#elif HWY_TARGET == HWY_SCALAR
+  for (int k = 0; k < 8; ++k) {
+    const int first = k / 4 * 4;
+    r.part[k] = combine(combine(a.part[first], a.part[first + 1]),
+                        combine(a.part[first + 2], a.part[first + 3]));
+  }
+#else
+  for (int k = 0; k < 4; ++k) {
+    const Vector x = a.part[k / 2 * 2], y = a.part[k / 2 * 2 + 1];
+    r.part[k] = combine(combine(x, hn::Reverse2(Lanes(), x)), combine(y, hn::Reverse2(Lanes(), y)));
+  }
+#endif
+  return r;
+}
+HWY_INLINE Row least_of_halves(const Row& a) {
+  return fold_halves(a, [](Vector x, Vector y) HWY_ATTR { return hn::Min(x, y); });
+}
+HWY_INLINE Row greatest_of_halves(const Row& a) {
+  return fold_halves(a, [](Vector x, Vector y) HWY_ATTR { return hn::Max(x, y); });
+}
+HWY_INLINE Row sum_of_halves(const Row& a) {
+  return fold_halves(a, [](Vector x, Vector y) HWY_ATTR { return hn::Add(x, y); });
+}
+/// Whether in all lanes of one half a > b.
+HWY_INLINE bool some_half_above(const Row& a, const Row& b) {
+  unsigned all = 0;
+  for (int k = 0; k < kParts; ++k) {
+    uint8_t bits[8];
+    hn::StoreMaskBits(Lanes(), hn::Gt(a.part[k], b.part[k]), bits);
+    all |= static_cast<unsigned>(bits[0]) << (k * kLanes);
+  }
+  return (all & 0x0f) == 0x0f || (all & 0xf0) == 0xf0;
+}
+
+/// Transposes the squares of four rows and four lanes.
+HWY_INLINE void transpose_halves(Row* r) {
+#if HWY_TARGET == HWY_SCALAR
+  for (int half = 0; half < 8; half += 4)
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < i; ++j) std::swap(r[i].part[half + j], r[j].part[half + i]);
+#else
+  const Lanes d;
+  Row even[2], odd[2];
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < kParts; ++k) {
+      even[i].part[k] = hn::InterleaveLower(d, r[2 * i].part[k], r[2 * i + 1].part[k]);
+      odd[i].part[k] = hn::InterleaveUpper(d, r[2 * i].part[k], r[2 * i + 1].part[k]);
+    }
+#if HWY_MAX_BYTES >= 32
+  for (int c = 0; c < 2; ++c)
+    for (int k = 0; k < kParts; ++k) {
+      const Vector a = (c == 0 ? even : odd)[0].part[k], b = (c == 0 ? even : odd)[1].part[k];
+      r[c].part[k] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a);
+      r[2 + c].part[k] = hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a));
+    }
+#else
+  for (int half = 0; half < 2; ++half)
+    for (int k = 0; k < 2; ++k) {
+      r[2 * k].part[2 * half] = even[0].part[2 * half + k];
+      r[2 * k].part[2 * half + 1] = even[1].part[2 * half + k];
+      r[2 * k + 1].part[2 * half] = odd[0].part[2 * half + k];
+      r[2 * k + 1].part[2 * half + 1] = odd[1].part[2 * half + k];
+    }
+#endif
+#endif
+}
+
 /// x * y = product + error exactly, where nothing underflows or overflows.
 HWY_INLINE Row exact_product(const Row& x, const Row& y, Row* error) {
   const Row product = x * y;

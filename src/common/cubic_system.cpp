@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: MIT
+#include "common/cubic_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "common/cubic_system.cpp"
+#include <hwy/foreach_target.h>
+
+#include "common/simd_rows-inl.hpp"
+
+#ifndef ENCASE_CUBIC_SYSTEM_SHARED
+#define ENCASE_CUBIC_SYSTEM_SHARED
+namespace encase {
+
+/// The least and greatest numbers among the coefficients of either polynomial.
+struct PairedExtremes {
+  std::array<double, 2> lo, hi;
+};
+
+/// A system, combined with the rows of a matrix Y.
+struct Preconditioned {
+  Matrix<2> y;    ///< the inverse of the mean Jacobian, or its adjugate
+  bool regular;   ///< the inverse exists
+  bool excluded;  ///< one of the combinations keeps a sign
+  bool linear;    ///< there are slopes: the combinations are not too far from the coordinates
+  std::array<double, 2> rounding;  ///< of the combinations' coefficients
+  std::array<double, 2> radius;    ///< of the combinations, rounding included
+  /// If regular and not excluded: the extremes of combination c less the coordinate c.
+  PairedExtremes rest;
+  /// If linear: the extremes of the combinations' differences across rows and across lanes.
+  std::array<PairedExtremes, 2> slope;
+};
+
+namespace {
+
+/// The rows of the coordinates: that across rows in the first half, that across lanes in the other.
+struct alignas(64) Coordinates {
+  double row[4][8];
+};
+constexpr Coordinates make_coordinates() {
+  Coordinates c{};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 8; ++j) c.row[i][j] = 2.0 / 3 * (j < 4 ? i : j - 4) - 1;
+  return c;
+}
+constexpr Coordinates kCoordinates = make_coordinates();
+
+}  // namespace
+}  // namespace encase
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace encase::HWY_NAMESPACE {
+
+/// The least and greatest of several rows.
+struct RowRange {
+  Row lo, hi;
+  HWY_INLINE explicit RowRange(const Row& first) : lo(first), hi(first) {}
+  HWY_INLINE void add(const Row& row) {
+    lo = least(lo, row);
+    hi = greatest(hi, row);
+  }
+  HWY_INLINE void add(const RowRange& other) {
+    lo = least(lo, other.lo);
+    hi = greatest(hi, other.hi);
+  }
+  HWY_INLINE PairedExtremes extremes() const {
+    HWY_ALIGN double l[8], h[8];
+    least_of_halves(lo).store(l);
+    greatest_of_halves(hi).store(h);
+    return {{l[0], l[4]}, {h[0], h[4]}};
+  }
+  /// Whether one half of the lanes keeps a sign beyond +-radius.
+  HWY_INLINE bool signs_beyond(const Row& radius) const {
+    return some_half_above(lo, radius) || some_half_above(Row::all(0) - radius, hi);
+  }
+};
+
+HWY_INLINE RowRange range_of_rows(const Row* rows) {
+  RowRange range(rows[0]), other(rows[2]);
+  range.add(rows[1]);
+  other.add(rows[3]);
+  range.add(other);
+  return range;
+}
+
+/// Sums of four rows with the coefficients of a matrix, whose rows are 8 doubles apart.
+HWY_INLINE void multiply(const double* matrix, const Row* rows, Row* result) {
+  for (int i = 0; i < 4; ++i) {
+    Row sum = rows[0] * Row::all(matrix[8 * i]);
+    for (int k = 1; k < 4; ++k) sum = sum + rows[k] * Row::all(matrix[8 * i + k]);
+    result[i] = sum;
+  }
+}
+
+/// The cubic nets from two Chebyshev nets: these are evaluated at 4 x 4 nodes (`nodes`: of x,
+/// then of y), and `matrix` turns four values into coefficients.
+void restrict_nets(const double* f, const double* g, const double* nodes, const double* matrix,
+                   double* to, PairedExtremes* extremes) {
+  // Chebyshev's polynomials at all nodes.
+  HWY_ALIGN double weights[8][8];
+  const Row x = Row::load(nodes), twice = x + x;
+  Row before = Row::all(1), last = x;
+  x.store(weights[1]);
+  for (int i = 2; i < 8; ++i) {
+    const Row next = twice * last - before;
+    before = last;
+    last = next;
+    next.store(weights[i]);
+  }
+  // Across rows, at the nodes of x; then across what becomes rows, at those of y.
+  Row t[8], value[4], rows[4];
+  for (int k = 0; k < 4; ++k) {
+    t[k] = Row::load(f);
+    t[4 + k] = Row::load(g);
+    for (int i = 1; i < 8; ++i) {
+      const Row weight = Row::all(weights[i][k]);
+      t[k] = t[k] + Row::load(f + 8 * i) * weight;
+      t[4 + k] = t[4 + k] + Row::load(g + 8 * i) * weight;
+    }
+  }
+  transpose(t);
+  for (int k = 0; k < 4; ++k) {
+    Row sum = t[0];
+    for (int j = 1; j < 8; ++j) sum = sum + t[j] * Row::all(weights[j][4 + k]);
+    value[k] = sum;
+  }
+  multiply(matrix, value, rows);
+  transpose_halves(rows);
+  multiply(matrix, rows, value);
+  for (int i = 0; i < 4; ++i) value[i].store(to + 8 * i);
+  *extremes = range_of_rows(value).extremes();
+}
+
+/// The same from cubic nets.
+void restrict_cubic(const double* b, const double* nodes, const double* matrix, double* to,
+                    PairedExtremes* extremes) {
+  HWY_ALIGN double weights[4][8];
+  const Row half = Row::all(0.5), s = Row::load(nodes) * half, three = Row::all(3);
+  const Row u = half + s, v = half - s, uu = u * u, vv = v * v;
+  (vv * v).store(weights[0]);
+  (vv * u * three).store(weights[1]);
+  (uu * v * three).store(weights[2]);
+  (uu * u).store(weights[3]);
+  Row rows[4], value[4];
+  for (int i = 0; i < 4; ++i) rows[i] = Row::load(b + 8 * i);
+  for (int k = 0; k < 4; ++k) {
+    value[k] = rows[0] * Row::all(weights[0][k]);
+    for (int i = 1; i < 4; ++i) value[k] = value[k] + rows[i] * Row::all(weights[i][k]);
+  }
+  transpose_halves(value);
+  for (int k = 0; k < 4; ++k) {
+    rows[k] = value[0] * Row::all(weights[0][4 + k]);
+    for (int i = 1; i < 4; ++i) rows[k] = rows[k] + value[i] * Row::all(weights[i][4 + k]);
+  }
+  multiply(matrix, rows, value);
+  transpose_halves(value);
+  multiply(matrix, value, rows);
+  for (int i = 0; i < 4; ++i) rows[i].store(to + 8 * i);
+  *extremes = range_of_rows(rows).extremes();
+}
+
+HWY_INLINE Row by_halves(double first, double second) {
+  return first_lanes(Row::all(first), Row::all(second), 4);
+}
+
+/// De Casteljau's algorithm at 1/2: sums of two, scaled at the end. A half in which one polynomial
+/// keeps a sign is not stored.
+void halve_nets(const double* b, bool along_lanes, const double* radius, double* lower,
+                double* upper, PairedExtremes* extremes, bool* excluded) {
+  Row t[4];
+  for (int i = 0; i < 4; ++i) t[i] = Row::load(b + 8 * i);
+  if (along_lanes) transpose_halves(t);
+  const Row half = Row::all(0.5), quarter = Row::all(0.25), eighth = Row::all(0.125);
+  const Row s01 = t[0] + t[1], s12 = t[1] + t[2], s23 = t[2] + t[3];
+  const Row q0 = s01 + s12, q1 = s12 + s23, middle = (q0 + q1) * eighth;
+  Row halves[2][4] = {{t[0], s01 * half, q0 * quarter, middle},
+                      {middle, q1 * quarter, s23 * half, t[3]}};
+  const Row r = by_halves(radius[0], radius[1]);
+  for (int k = 0; k < 2; ++k) {
+    const RowRange range = range_of_rows(halves[k]);
+    excluded[k] = range.signs_beyond(r);
+    if (excluded[k]) continue;
+    extremes[k] = range.extremes();
+    transpose_halves(halves[k]);
+    for (int i = 0; i < 4; ++i) halves[k][i].store((k == 0 ? lower : upper) + 8 * i);
+  }
+}
+
+/// The mean Jacobian, its rows those of the polynomials: across rows, across lanes.
+HWY_INLINE Matrix<2> mean_slopes(const Row* rows) {
+  HWY_ALIGN double across[8], lanes[8];
+  sum_of_halves(rows[3] - rows[0]).store(across);
+  ((rows[0] + rows[1]) + (rows[2] + rows[3])).store(lanes);
+  return {{{0.125 * across[0], 0.125 * (lanes[3] - lanes[0])},
+           {0.125 * across[4], 0.125 * (lanes[7] - lanes[4])}}};
+}
+
+void precondition(const double* b, const double* magnitude, const double* radius,
+                  Preconditioned* result) {
+  Row rows[4], c[4];
+  for (int i = 0; i < 4; ++i) rows[i] = Row::load(b + 8 * i);
+  const Matrix<2> j = mean_slopes(rows);
+  const double scale = 1 / (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
+  result->regular = scale > -1e300 && scale < 1e300;
+  const double s = result->regular ? scale : 1;
+  Matrix<2>& y = result->y;
+  y = {{{j[1][1] * s, -j[0][1] * s}, {-j[1][0] * s, j[0][0] * s}}};
+  for (int k = 0; k < 2; ++k) {
+    // Two products and a sum round.
+    const double first = y[k][0] < 0 ? -y[k][0] : y[k][0];
+    const double second = y[k][1] < 0 ? -y[k][1] : y[k][1];
+    result->rounding[k] =
+        3 * 0x1p-53 * (first * magnitude[0] + second * magnitude[1]) * (1 + 0x1p-40) + 0x1p-1000;
+    result->radius[k] =
+        (first * radius[0] + second * radius[1] + result->rounding[k]) * (1 + 0x1p-40);
+  }
+  const Row own = by_halves(y[0][0], y[1][1]), other = by_halves(y[0][1], y[1][0]);
+  for (int i = 0; i < 4; ++i) c[i] = own * rows[i] + other * swap_halves(rows[i]);
+  result->excluded = range_of_rows(c).signs_beyond(by_halves(result->radius[0], result->radius[1]));
+  if (result->excluded || !result->regular) return;
+  for (int i = 0; i < 4; ++i) rows[i] = c[i] - Row::load(kCoordinates.row[i]);
+  result->rest = range_of_rows(rows).extremes();
+  // Slopes close to those of the coordinates would keep the rests small.
+  constexpr double kMost = 2.5;
+  result->linear = result->rest.hi[0] - result->rest.lo[0] < kMost &&
+                   result->rest.hi[1] - result->rest.lo[1] < kMost;
+  if (!result->linear) return;
+  for (int k = 0; k < 2; ++k) {
+    RowRange d(c[1] - c[0]);
+    d.add(c[2] - c[1]);
+    d.add(c[3] - c[2]);
+    result->slope[k] = d.extremes();
+    transpose_halves(c);
+  }
+}
+
+/// The largest differences of neighbours, up and down the rows, in the net and its transpose.
+void variations(const double* b, PairedExtremes* result) {
+  Row rows[4];
+  for (int i = 0; i < 4; ++i) rows[i] = Row::load(b + 8 * i);
+  for (int k = 0; k < 2; ++k) {
+    RowRange d(rows[1] - rows[0]);
+    d.add(rows[2] - rows[1]);
+    d.add(rows[3] - rows[2]);
+    result[k] = d.extremes();
+    transpose_halves(rows);
+  }
+}
+
+/// The sums of the absolute values of a net's coefficients: of all, of the rows 4 to 7, and of the
+/// lanes 4 to 7.
+void add_up(const double* net, double* result) {
+  Row total = Row::all(0);
+  for (int i = 0; i < 8; ++i) {
+    const Row size = absolute(Row::load(net + 8 * i));
+    total = total + size;
+    if (i >= 4) result[1 + i - 4] = sum_of_lanes(size);
+  }
+  HWY_ALIGN double lanes[8];
+  total.store(lanes);
+  for (int j = 4; j < 8; ++j) result[1 + j] = lanes[j];
+  result[0] = sum_of_lanes(total);
+}
+
+}  // namespace encase::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace encase {
+namespace {
+
+HWY_EXPORT(restrict_nets);
+HWY_EXPORT(restrict_cubic);
+HWY_EXPORT(halve_nets);
+HWY_EXPORT(precondition);
+HWY_EXPORT(variations);
+HWY_EXPORT(add_up);
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
+constexpr double kTiny = 0x1p-1000;  // more than what gradual underflow can lose
+
+/// A positive v with E v < quality v, if there is one: with it (quality I - E) v is a multiple of
+/// (1, 1).
+bool find_weights(const Matrix<2>& e, double quality, std::array<double, 2>* v) {
+  const double a = quality - e[0][0], b = quality - e[1][1];
+  if (!(a > 0 && b > 0 && a * b > e[0][1] * e[1][0])) return false;
+  const double largest = std::max(b + e[0][1], a + e[1][0]);
+  *v = {(b + e[0][1]) / largest, (a + e[1][0]) / largest};
+  for (int k = 0; k < 2; ++k)
+    if (!((e[k][0] * (*v)[0] + e[k][1] * (*v)[1]) * kUp < quality * (*v)[k])) return false;
+  return true;
+}
+
+}  // namespace
+
+void expand(const Tile& tile, const Box<2>& box, CubicSource* source) {
+  expand(tile, box, static_cast<ChebyshevNet*>(source));
+  double sums[9];
+  HWY_DYNAMIC_DISPATCH(add_up)(source->c[0].data(), sums);
+  source->size = sums[0] * kUp;
+  // The fourth derivatives of T_4 to T_7 on [-1,1], over 192.
+  constexpr double kFourth[4] = {1, 10, 54, 210};
+  for (int i = 0; i < 2; ++i) {
+    CubicSource::High& high = source->high[i];
+    high = {0, 0, 0, 0};
+    for (int k = 3; k >= 0; --k) {
+      const double size = sums[1 + 4 * i + k], n = k + 4;
+      high.value += 2.8501 * size;
+      high.slope += (n * n + 16.7) * size;
+      high.value_of_part += 1.0001 * kFourth[k] * size;
+    }
+    high.slope_of_part = 54 * high.value_of_part;
+  }
+}
+
+bool CubicSource::has_sign() const {
+  const double mean = std::fabs(c[0][0]), rest = (size - mean) * kUp + 0x1p-50 * mean;
+  return mean - rest > radius;
+}
+
+Part part_of(const Chart& chart, const Box<2>& box) {
+  const Chart inner = chart_of(box);
+  Part part;
+  for (int i = 0; i < 2; ++i) {
+    part.origin[i] = (inner[i].center - chart[i].center) / chart[i].half;
+    part.half[i] = inner[i].half / chart[i].half;
+  }
+  return part;
+}
+
+CubicLoss cubic_loss(const CubicSource& source, const Point<2>& half) {
+  double value[2], slope[2];
+  for (int i = 0; i < 2; ++i) {
+    const CubicSource::High& high = source.high[i];
+    const double square = half[i] * half[i], power = square * square * kUp;
+    value[i] = std::min(high.value, power * high.value_of_part);
+    slope[i] = std::min(high.slope, power * high.slope_of_part);
+  }
+  return {1.8501 * (value[0] + value[1]), {slope[0] + 16.7 * value[1], slope[1] + 16.7 * value[0]}};
+}
+
+void restrict_to(const std::array<CubicSource, 2>& sources, const Part& part, CubicSystem* system) {
+  const Interpolation& table = interpolation(4);
+  alignas(64) std::array<double, 8> nodes;
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 4; ++k) nodes[4 * i + k] = part.origin[i] + part.half[i] * table.node[k];
+  PairedExtremes extremes;
+  HWY_DYNAMIC_DISPATCH(restrict_nets)
+  (sources[0].c[0].data(), sources[1].c[0].data(), nodes.data(), table.matrix[0].data(),
+   system->b[0].data(), &extremes);
+  system->rows_axis = 0;
+  system->lo = extremes.lo;
+  system->hi = extremes.hi;
+  for (int k = 0; k < 2; ++k) {
+    const CubicSource& source = sources[k];
+    const CubicLoss loss = cubic_loss(source, part.half);
+    // Weights err by less than 320 u; sums and products round.
+    const double rounding = table.norm * table.norm * source.size * 0x1p-42 + kTiny;
+    system->radius[k] = (source.radius + loss.value + rounding) * kUp;
+    for (int i = 0; i < 2; ++i)
+      system->slope_radius[k][i] =
+          (source.slope_radius[i] * part.half[i] + loss.slope[i] + 3 * rounding) * kUp;
+  }
+}
+
+void restrict_to(const CubicSystem& from, const Part& part, CubicSystem* system) {
+  const Interpolation& table = interpolation(4);
+  alignas(64) std::array<double, 8> nodes;
+  const std::array<int, 2> axis{from.rows_axis, 1 - from.rows_axis};
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 4; ++k)
+      nodes[4 * i + k] = part.origin[axis[i]] + part.half[axis[i]] * table.node[k];
+  PairedExtremes extremes;
+  HWY_DYNAMIC_DISPATCH(restrict_cubic)
+  (from.b[0].data(), nodes.data(), table.matrix[0].data(), system->b[0].data(), &extremes);
+  system->rows_axis = axis[0];
+  system->lo = extremes.lo;
+  system->hi = extremes.hi;
+  for (int k = 0; k < 2; ++k) {
+    const double rounding = table.norm * table.norm * from.magnitude(k) * 0x1p-44 + kTiny;
+    system->radius[k] = (from.radius[k] + rounding) * kUp;
+    for (int i = 0; i < 2; ++i)
+      system->slope_radius[k][i] =
+          (from.slope_radius[k][i] * part.half[axis[i]] + 3 * rounding) * kUp;
+  }
+}
+
+std::array<bool, 2> halve(const CubicSystem& system, int axis, CubicSystem* lower,
+                          CubicSystem* upper) {
+  const bool along_lanes = system.rows_axis != axis;
+  // Across the halves' rows and lanes: those of the axis that stays, then the halved one.
+  const int stays = along_lanes ? 0 : 1;
+  std::array<double, 2> radius;
+  std::array<std::array<double, 2>, 2> slope;
+  for (int k = 0; k < 2; ++k) {
+    // Each of three sums rounds once, relative to the largest coefficient.
+    const double change = 1.01 * 4 * kUnit * system.magnitude(k) + kTiny;
+    radius[k] = (system.radius[k] + change) * kUp;
+    slope[k] = {(system.slope_radius[k][stays] + 3 * change) * kUp,
+                (0.5 * system.slope_radius[k][1 - stays] + 3 * change) * kUp};
+  }
+  PairedExtremes extremes[2];
+  std::array<bool, 2> excluded;
+  HWY_DYNAMIC_DISPATCH(halve_nets)
+  (system.b[0].data(), along_lanes, radius.data(), lower->b[0].data(), upper->b[0].data(), extremes,
+   excluded.data());
+  for (int k = 0; k < 2; ++k) {
+    if (excluded[k]) continue;
+    CubicSystem* half = k == 0 ? lower : upper;
+    half->rows_axis = 1 - axis;
+    half->lo = extremes[k].lo;
+    half->hi = extremes[k].hi;
+    half->radius = radius;
+    half->slope_radius = slope;
+  }
+  return excluded;
+}
+
+void test_system(const CubicSystem& system, double quality, SystemVerdict* verdict) {
+  Preconditioned p;
+  const double magnitude[2] = {system.magnitude(0), system.magnitude(1)};
+  HWY_DYNAMIC_DISPATCH(precondition)
+  (system.b[0].data(), magnitude, system.radius.data(), &p);
+  verdict->excluded = p.excluded;
+  verdict->contracts = false;
+  verdict->zeros = Box<2>{{-1, -1}, {1, 1}};
+  if (p.excluded || !p.regular) return;
+  // The coordinates that belong to rows and lanes, and to the combinations.
+  const std::array<int, 2> axis{system.rows_axis, 1 - system.rows_axis};
+  for (int c = 0; c < 2; ++c) {
+    // A zero has s + rest = 0.
+    const double lo = p.rest.lo[c], hi = p.rest.hi[c];
+    const double slack = (p.radius[c] + 8 * kUnit * (2 + std::fabs(lo) + std::fabs(hi))) * kUp;
+    verdict->zeros.lo[axis[c]] = -hi - slack;
+    verdict->zeros.hi[axis[c]] = -lo + slack;
+    if (-hi - slack > 1 || -lo + slack < -1) verdict->excluded = true;
+  }
+  if (verdict->excluded || !p.linear) return;
+  Contraction<2>& contraction = verdict->contraction;
+  constexpr double factor = 1.5;  // of differences: half the degree
+  for (int c = 0; c < 2; ++c) {
+    contraction.preconditioner[axis[c]] = p.y[c];
+    const double alpha = std::fabs(p.y[c][0]), beta = std::fabs(p.y[c][1]);
+    for (int i = 0; i < 2; ++i) {
+      const double lo = factor * p.slope[i].lo[c], hi = factor * p.slope[i].hi[c];
+      const double center = i == c ? 1.0 : 0.0;
+      const double deviation = std::max(hi - center, center - lo);
+      const double radius = alpha * system.slope_radius[0][i] + beta * system.slope_radius[1][i];
+      // Differences and products round; the deviation is rounded up.
+      contraction.bound[axis[c]][axis[i]] =
+          (std::max(deviation, 0.0) + radius + 2 * factor * p.rounding[c] +
+           4 * kUnit * (std::fabs(lo) + std::fabs(hi) + 1)) *
+              kUp +
+          kTiny;
+    }
+  }
+  verdict->contracts = find_weights(contraction.bound, quality, &contraction.weights);
+}
+
+std::array<double, 2> relative_variation(const CubicSystem& system) {
+  PairedExtremes d[2];
+  HWY_DYNAMIC_DISPATCH(variations)(system.b[0].data(), d);
+  std::array<double, 2> result{0, 0};
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 2; ++k)
+      result[i == 0 ? system.rows_axis : 1 - system.rows_axis] +=
+          std::max(-d[i].lo[k], d[i].hi[k]) / (system.magnitude(k) + 1e-300);
+  return result;
+}
+
+}  // namespace encase
+#endif

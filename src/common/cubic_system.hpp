@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "common/box_tests.hpp"
+#include "common/interval.hpp"
+#include "common/patch.hpp"
+#include "encase/geometry.hpp"
+
+/// Cubic nets of two polynomials side by side: what the search for their common zeros works with.
+/// docs/error-bounds.md derives their radii.
+namespace encase {
+
+/// A polynomial on a box from which cubic nets on parts of the box are made.
+struct CubicSource : ChebyshevNet {
+  double size;  ///< at least the sum of the coefficients' absolute values
+  /// What cubics lose of the terms with T_4 to T_7 in one coordinate, of values and slopes: bounds
+  /// for all parts of the box, and others that are multiplied by the part's half width^4.
+  struct High {
+    double value, slope, value_of_part, slope_of_part;
+  };
+  std::array<High, 2> high;
+
+  /// The polynomial is proved to have a sign on the closed box.
+  bool has_sign() const;
+};
+void expand(const Tile& tile, const Box<2>& box, CubicSource* source);
+
+/// Two polynomials on a box, in the box's coordinates [-1,1]^2: tensor Bernstein nets of degree 3,
+/// and how far the polynomials may be from them. Row i has the coefficients of the first polynomial
+/// in the lanes 0 to 3, those of the second one in the lanes 4 to 7.
+struct CubicSystem {
+  alignas(64) std::array<std::array<double, 8>, 4> b;
+  int rows_axis = 0;                 ///< along which the rows run (0: x)
+  std::array<double, 2> lo{}, hi{};  ///< the extreme coefficients
+  std::array<double, 2> radius{};    ///< bounds on the distance of values
+  /// Bounds on the distance of partial derivatives: of either polynomial, across rows and lanes.
+  std::array<std::array<double, 2>, 2> slope_radius{};
+
+  double magnitude(int i) const { return hi[i] > -lo[i] ? hi[i] : -lo[i]; }
+  /// One of the polynomials is proved to have a sign on the closed box.
+  bool excluded() const {
+    return lo[0] > radius[0] || hi[0] < -radius[0] || lo[1] > radius[1] || hi[1] < -radius[1];
+  }
+};
+
+/// A part of a box, in the coordinates of the box: origin +- half.
+struct Part {
+  Point<2> origin, half;
+};
+using Chart = std::array<Centered, 2>;
+inline Chart chart_of(const Box<2>& box) {
+  return {centered(box.lo[0], box.hi[0]), centered(box.lo[1], box.hi[1])};
+}
+Part part_of(const Chart& chart, const Box<2>& box);
+
+/// How far cubic nets on a part of half widths `half` are from the source's net: values,
+/// derivatives in x and y.
+struct CubicLoss {
+  double value;
+  std::array<double, 2> slope;
+};
+CubicLoss cubic_loss(const CubicSource& source, const Point<2>& half);
+
+/// The nets on a part of the sources' box, rows along x.
+void restrict_to(const std::array<CubicSource, 2>& sources, const Part& part, CubicSystem* system);
+
+/// The same from cubic nets.
+void restrict_to(const CubicSystem& from, const Part& part, CubicSystem* system);
+
+/// The halves across an axis (their rows run along the other one), and for each whether it is
+/// excluded; then nothing else is said of it. `system` may be one of the halves.
+std::array<bool, 2> halve(const CubicSystem& system, int axis, CubicSystem* lower,
+                          CubicSystem* upper);
+
+/// What the nets prove about the common zeros.
+struct SystemVerdict {
+  SystemVerdict() {}  // nothing is set: most of it is seldom needed
+
+  bool excluded;  ///< there is none in the closed box
+  Box<2> zeros;   ///< all of them lie here, in the coordinates of the box
+  bool contracts;
+  Contraction<2> contraction;  ///< if it contracts: there is at most one, a simple one
+};
+void test_system(const CubicSystem& system, double quality, SystemVerdict* verdict);
+
+/// How much the polynomials change along x and along y, each beside its size: the largest
+/// differences of neighbouring coefficients.
+std::array<double, 2> relative_variation(const CubicSystem& system);
+
+}  // namespace encase
