@@ -39,6 +39,9 @@ double smallest_part(Unresolved::Kind kind) {
   return kind == Unresolved::Kind::Contact ? 0x1p-44 : 0x1p-40;
 }
 
+/// Of the shared cover, so many leaves are told apart when a pair's common zeros are sought.
+constexpr std::size_t kFewLeaves = 64;
+
 }  // namespace
 
 Encaser::Encaser(const std::vector<NamedCurve>& input, const Region& region,
@@ -313,19 +316,22 @@ void Encaser::isolate_crossings() {
     for (Box<2>& box : curve_roots_)
       if (box.width(0) > 0) box = root_around(box, whole);
     for (const MeetingPair& pair : meeting_pairs(shared))
-      isolate_pair(pair.curves, root_around(pair.hull, whole));
+      isolate_pair(pair.curves, root_around(pair.hull, whole), &pair.leaves);
     result_.shared_cover = std::move(shared.cover);
   } else {
     for (const TiledPolynomial& f : tiled_) curve_roots_.push_back(f.box());
-    if (n == 2) isolate_pair({0, 1}, tiled_[0].box());
+    if (n == 2) isolate_pair({0, 1}, tiled_[0].box(), nullptr);
   }
   report_concurrency();
 }
 
-/// All common zeros of two curves in the part of a box that lies in the region.
-void Encaser::isolate_pair(const std::array<int, 2>& curves, const Box<2>& root) {
-  const SubdivisionLimits pair_limits =
-      limits("isolating crossings", Unresolved::Kind::Contact, root);
+/// All common zeros of two curves in the part of a box that lies in the region; if `leaves` are
+/// given, there are none elsewhere.
+void Encaser::isolate_pair(const std::array<int, 2>& curves, const Box<2>& root,
+                           const std::vector<Box<2>>* leaves) {
+  SubdivisionLimits pair_limits = limits("isolating crossings", Unresolved::Kind::Contact, root);
+  // Many of them are all over the root.
+  if (leaves && leaves->size() <= kFewLeaves) pair_limits.places = leaves;
   const auto [i, j] = curves;
   RootIsolation<2> roots =
       isolate_roots(partition_->tiles().about(i, root), partition_->tiles().about(j, root), root,

@@ -46,7 +46,8 @@ class Encaser {
   bool open_plane();
   SubdivisionLimits limits(const char* stage, Unresolved::Kind kind, const Box<2>& root);
   std::function<bool()> stop(const char* stage);
-  void isolate_pair(const std::array<int, 2>& curves, const Box<2>& root);
+  void isolate_pair(const std::array<int, 2>& curves, const Box<2>& root,
+                    const std::vector<Box<2>>* leaves);
   void use_region(const Region& region);
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
   void report(const std::vector<Box<2>>& unresolved, const Box<2>& root, Unresolved::Kind kind,
