@@ -316,7 +316,8 @@ void Encaser::isolate_crossings() {
     for (Box<2>& box : curve_roots_)
       if (box.width(0) > 0) box = root_around(box, whole);
     for (const MeetingPair& pair : meeting_pairs(shared))
-      isolate_pair(pair.curves, root_around(pair.hull, whole), &pair.leaves);
+      isolate_pair(pair.curves, root_around(pair.hull, whole),
+                   shared.unresolved.empty() ? &pair.leaves : nullptr);
     result_.shared_cover = std::move(shared.cover);
   } else {
     for (const TiledPolynomial& f : tiled_) curve_roots_.push_back(f.box());
@@ -326,7 +327,7 @@ void Encaser::isolate_crossings() {
 }
 
 /// All common zeros of two curves in the part of a box that lies in the region; if `leaves` are
-/// given, there are none elsewhere.
+/// given, they are known to lie in these.
 void Encaser::isolate_pair(const std::array<int, 2>& curves, const Box<2>& root,
                            const std::vector<Box<2>>* leaves) {
   SubdivisionLimits pair_limits = limits("isolating crossings", Unresolved::Kind::Contact, root);
