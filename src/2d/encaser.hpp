@@ -62,6 +62,7 @@ class Encaser {
   struct Pair {
     std::array<int, 2> curves;
     Box<2> root;
+    std::vector<Box<2>> leaves;  ///< their common zeros are known to lie in these; empty: unknown
   };
   void isolate_pairs(const std::vector<Pair>& pairs);
   void use_region(const Region& region);
