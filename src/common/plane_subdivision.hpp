@@ -381,7 +381,7 @@ inline bool PlaneSubdivision<2>::provide_net(Node& node) {
   if (node.has_net && !coarse(node.net, node.level)) return true;
   if (node.base && make_cubic(node)) return !node.excluded;
   // A base of its own, unless the last one is hardly larger.
-  const int between = node.level <= kUsualLevels ? 2 : 1;
+  const int between = node.level <= kUsualLevels ? 4 : 1;
   if (!node.base || node.base->level + between <= node.level) {
     if (!provide_base(node)) return false;
     make_cubic(node);

@@ -93,9 +93,11 @@ struct Pair {
 
 /// Constants are made when they are first asked for; those are not to be counted.
 void make_constants() {
-  Pair pair(20);
-  isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
-  critical_regions(pair.f, 0, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
+  for (const int degree : {6, 20}) {
+    Pair pair(degree);
+    isolate_roots(pair.f, pair.g, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
+    critical_regions(pair.f, 0, pair.f.box(), {}, SubdivisionLimits{}, pair.kernel);
+  }
 }
 
 TEST(Allocations, OfIsolatingRootsAreBoundedByTilesAndRoots) {
