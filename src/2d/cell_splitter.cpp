@@ -144,9 +144,9 @@ bool CellSplitter::halve() {
 }
 
 std::vector<OpenCell> CellSplitter::hand_over() {
-  std::vector<OpenCell> cells = std::exchange(open_, {});
-  std::reverse(cells.begin(), cells.end());
-  return cells;
+  std::vector<OpenCell> handed = std::exchange(open_, {});
+  std::reverse(handed.begin(), handed.end());
+  return handed;
 }
 
 void CellSplitter::give_up() {
