@@ -79,7 +79,8 @@ struct SharedCover {
 /// Proof that the list of crossings of a pair is complete: the box `root` (which contains the
 /// region used, or all leaves of the shared cover in which both are alive) is subdivided, and in
 /// every leaf
-///   - kExcluded: the two curves have no common point;
+///   - kExcluded: the two curves have no common point in the region used (that may show from the
+///     shared cover: no leaf of that which meets this one has both alive);
 ///   - k >= 0: a box that contains the leaf and crossing k's box holds at most one common point.
 struct CrossingCover {
   std::array<int, 2> curves{};

@@ -40,6 +40,9 @@ double smallest_part(Unresolved::Kind kind) {
   return kind == Unresolved::Kind::Contact ? 0x1p-44 : 0x1p-40;
 }
 
+/// Of the shared cover, so many leaves are told apart when a pair's common zeros are sought.
+constexpr std::size_t kFewLeaves = 64;
+
 }  // namespace
 
 Encaser::Encaser(const std::vector<NamedCurve>& input, const Region& region,
@@ -353,13 +356,13 @@ void Encaser::isolate_crossings() {
     for (Box<2>& box : curve_roots_)
       if (box.width(0) > 0) box = root_around(box, whole);
     std::vector<Pair> pairs;
-    for (const MeetingPair& pair : meeting_pairs(shared))
-      pairs.push_back({pair.curves, root_around(pair.hull, whole)});
+    for (MeetingPair& pair : meeting_pairs(shared))
+      pairs.push_back({pair.curves, root_around(pair.hull, whole), std::move(pair.leaves)});
     isolate_pairs(pairs);
     result_.shared_cover = std::move(shared.cover);
   } else {
     for (const TiledPolynomial& f : tiled_) curve_roots_.push_back(f.box());
-    if (n == 2) isolate_pairs({{{0, 1}, tiled_[0].box()}});
+    if (n == 2) isolate_pairs({{{0, 1}, tiled_[0].box(), {}}});
   }
   report_concurrency();
 }
@@ -375,11 +378,14 @@ void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
   std::vector<Isolated> isolated(pairs.size());
   Tasks tasks{"isolating crossings", static_cast<int>(pairs.size())};
   run(tasks, [&](int index) {
-    const auto& [curves, root] = pairs[index];
-    const auto [i, j] = curves;
+    const Box<2>& root = pairs[index].root;
+    const auto [i, j] = pairs[index].curves;
     Isolated& result = isolated[index];
     result.kernel = kernel_.fresh();
-    const SubdivisionLimits pair_limits = limits(tasks, Unresolved::Kind::Contact, root);
+    SubdivisionLimits pair_limits = limits(tasks, Unresolved::Kind::Contact, root);
+    // Many of them are all over the root.
+    const std::vector<Box<2>>& leaves = pairs[index].leaves;
+    if (!leaves.empty() && leaves.size() <= kFewLeaves) pair_limits.places = &leaves;
     result.roots = isolate_roots(tiles_->about(i, root), tiles_->about(j, root), root, sides_,
                                  pair_limits, result.kernel);
     result.smallest = pair_limits.smallest;

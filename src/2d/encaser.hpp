@@ -58,6 +58,7 @@ class Encaser {
   struct Pair {
     std::array<int, 2> curves;
     Box<2> root;
+    std::vector<Box<2>> leaves;  // there are no common zeros elsewhere; none: that is not known
   };
   void isolate_pairs(const std::vector<Pair>& pairs);
   void use_region(const Region& region);

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
-#include <unordered_map>
+#include <tuple>
 #include <utility>
 
 #include "common/patch.hpp"
@@ -14,14 +13,14 @@
 namespace encase {
 namespace {
 
-/// With so few curves alive a box is a leaf: their roots are isolated from here.
+/// With so few curves alive a box is a leaf.
 constexpr std::size_t kFew = 2;
 /// So many halvings in a row that took no curve away: twice across either axis.
 constexpr int kInVain = 4;
 /// With more curves a halving counts as long as it takes some away from the other half.
 constexpr std::size_t kSeveral = 8;
 constexpr int kDeepest = 40;  // levels of halvings
-constexpr double kMostBoxes = 200000;
+constexpr int kMostBoxes = 200000;
 /// A part with both widths above this fraction of the whole's is treated as the whole.
 constexpr double kHardlySmaller = 0.6;
 
@@ -43,16 +42,26 @@ class SharedSubdivision {
         lower_(kDeepest + 1) {}
 
   SharedLeaves run() {
+    // What takes too many boxes is begun again, with leaves of more curves everywhere.
+    int visited = 0;
+    for (few_ = kFew; !subdivide(); few_ *= 2) visited += result_.visited;
+    result_.visited += visited;
+    return std::move(result_);
+  }
+
+ private:
+  /// False if it takes too many boxes.
+  bool subdivide() {
+    result_ = {};
     result_.cover.root = curves_.box();
     Part whole{result_.cover.root, false, {}};
     whole.alive.resize(static_cast<std::size_t>(curves_.size()));
     for (std::size_t c = 0; c < whole.alive.size(); ++c) whole.alive[c].curve = static_cast<int>(c);
     look_at(0, &whole);
-    visit(0, 0, kMostBoxes, whole);
-    return std::move(result_);
+    visit(0, 0, whole);
+    return stopped_ || result_.visited < kMostBoxes;
   }
 
- private:
   /// A box, whether it is known to lie in all half planes, and the curves that may have zeros
   /// there.
   struct Part {
@@ -64,7 +73,7 @@ class SharedSubdivision {
   enum class Look { Outside, Gained, Nothing };
 
   Look look_at(int level, Part* part);
-  void visit(int level, int in_vain, double budget, Part& part);
+  void visit(int level, int in_vain, Part& part);
   bool provide_patch(const Box<2>& box, int level, Alive* alive);
 
   NestedTiles& curves_;
@@ -73,6 +82,7 @@ class SharedSubdivision {
   Kernel& kernel_;
   SharedLeaves result_;
   bool stopped_ = false;
+  std::size_t few_ = kFew;
   /// The lower halves, by level. (An upper half takes its parent's place.)
   std::vector<Part> lower_;
 };
@@ -121,7 +131,7 @@ SharedSubdivision::Look SharedSubdivision::look_at(int level, Part* part) {
 /// Subdivides a part that has been looked at. (In a wide region most curves pass the middle, and
 /// what leads there are boxes that all of them meet beside others that few do: a halving that takes
 /// curves from one half is not in vain for the other, as long as they are several.)
-void SharedSubdivision::visit(int level, int in_vain, double budget, Part& part) {
+void SharedSubdivision::visit(int level, int in_vain, Part& part) {
   SharedCover& cover = result_.cover;
   if (result_.visited++ % 64 == 0 && !stopped_) stopped_ = stop_ && stop_();
   if (stopped_) {
@@ -133,8 +143,8 @@ void SharedSubdivision::visit(int level, int in_vain, double budget, Part& part)
   Part& upper = part;
   const Box<2> box = part.box;
   const int axis = cover::kSplitX - wider_axis(box);
-  if (part.alive.size() <= kFew || in_vain >= kInVain || level == kDeepest || budget < 2 ||
-      !halve_box(box, axis, &lower.box, &upper.box)) {
+  if (part.alive.size() <= few_ || in_vain >= kInVain || level == kDeepest ||
+      result_.visited >= kMostBoxes || !halve_box(box, axis, &lower.box, &upper.box)) {
     cover.tokens.push_back(static_cast<int>(cover.alive.size()));
     auto& names = cover.alive.emplace_back();
     names.reserve(part.alive.size());
@@ -155,13 +165,6 @@ void SharedSubdivision::visit(int level, int in_vain, double budget, Part& part)
   const std::array<Part*, 2> halves{&lower, &upper};
   const std::array<Look, 2> looks{look_at(level + 1, &lower), look_at(level + 1, &upper)};
   const bool several = before > kSeveral;
-  // Either half gets a share of the budget for its pairs of curves.
-  const auto pairs = [](const Part& half, Look look) {
-    const auto curves = static_cast<double>(half.alive.size());
-    return look == Look::Outside || half.alive.size() <= kFew ? 0 : curves * curves;
-  };
-  const std::array<double, 2> weights{pairs(lower, looks[0]), pairs(upper, looks[1])};
-  const double share = (budget - 2) / std::max(1.0, weights[0] + weights[1]);
   for (int k = 0; k < 2; ++k) {
     const bool gained = looks[k] == Look::Gained || (several && looks[1 - k] == Look::Gained);
     if (looks[k] == Look::Outside) {
@@ -169,7 +172,7 @@ void SharedSubdivision::visit(int level, int in_vain, double budget, Part& part)
       cover.tokens.push_back(cover::kOutside);
       continue;
     }
-    visit(level + 1, gained ? 0 : in_vain + 1, share * weights[k], *halves[k]);
+    visit(level + 1, gained ? 0 : in_vain + 1, *halves[k]);
   }
 }
 
@@ -183,23 +186,28 @@ SharedLeaves share_leaves(NestedTiles& curves, const std::vector<Line>& half_pla
 }
 
 std::vector<MeetingPair> meeting_pairs(const SharedLeaves& leaves) {
-  std::unordered_map<std::uint64_t, Box<2>> hulls;
+  struct Meeting {
+    int first, second, leaf;
+  };
+  std::vector<Meeting> meetings;
   for (std::size_t k = 0; k < leaves.boxes.size(); ++k) {
     const std::vector<int>& alive = leaves.cover.alive[k];
     for (std::size_t i = 0; i < alive.size(); ++i)
-      for (std::size_t j = i + 1; j < alive.size(); ++j) {
-        const std::uint64_t pair =
-            (static_cast<std::uint64_t>(alive[i]) << 32) | static_cast<std::uint64_t>(alive[j]);
-        Box<2>& box = hulls.try_emplace(pair, kNothing).first->second;
-        box = hull(box, leaves.boxes[k]);
-      }
+      for (std::size_t j = i + 1; j < alive.size(); ++j)
+        meetings.push_back({alive[i], alive[j], static_cast<int>(k)});
   }
+  std::sort(meetings.begin(), meetings.end(), [](const Meeting& a, const Meeting& b) {
+    return std::tie(a.first, a.second, a.leaf) < std::tie(b.first, b.second, b.leaf);
+  });
   std::vector<MeetingPair> pairs;
-  pairs.reserve(hulls.size());
-  for (const auto& [pair, box] : hulls)
-    pairs.push_back({{static_cast<int>(pair >> 32), static_cast<int>(pair & 0xffffffff)}, box});
-  std::sort(pairs.begin(), pairs.end(),
-            [](const MeetingPair& a, const MeetingPair& b) { return a.curves < b.curves; });
+  for (const Meeting& m : meetings) {
+    const std::array<int, 2> curves{m.first, m.second};
+    if (pairs.empty() || pairs.back().curves != curves) pairs.push_back({curves, {}, kNothing});
+    MeetingPair& pair = pairs.back();
+    const Box<2>& leaf = leaves.boxes[static_cast<std::size_t>(m.leaf)];
+    pair.leaves.push_back(leaf);
+    pair.hull = hull(pair.hull, leaf);
+  }
   return pairs;
 }
 

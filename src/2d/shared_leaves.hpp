@@ -26,10 +26,11 @@ struct SharedLeaves {
 SharedLeaves share_leaves(NestedTiles& curves, const std::vector<Line>& half_planes,
                           const std::function<bool()>& stop, Kernel& kernel);
 
-/// Two curves that are alive in a common leaf, and the hull of all such leaves.
+/// Two curves that are alive in a common leaf, and all such leaves.
 struct MeetingPair {
   std::array<int, 2> curves{};  ///< ascending
-  Box<2> hull;
+  std::vector<Box<2>> leaves;
+  Box<2> hull;  ///< of the leaves
 };
 
 /// All of them, in lexicographic order.

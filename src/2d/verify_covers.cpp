@@ -298,6 +298,42 @@ std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box
   return curves;
 }
 
+namespace {
+
+/// Whether no leaf of the shared cover that meets the box has both curves, or may have them.
+bool apart_in_shared_cover(const Claims& claims, const std::array<int, 2>& curves,
+                           const Box<2>& box) {
+  const SharedCover& cover = claims.result.shared_cover;
+  if (claims.upper_half.empty()) return false;
+  struct Item {
+    std::size_t token;
+    Box<2> box;
+  };
+  std::vector<Item> stack{{0, cover.root}};
+  while (!stack.empty()) {
+    const Item item = stack.back();
+    stack.pop_back();
+    if (!item.box.meets(box)) continue;
+    const int token = cover.tokens[item.token];
+    if (splits(token)) {
+      Box<2> lower, upper;
+      halves(item.box, token == cover::kSplitX ? 0 : 1, &lower, &upper);
+      stack.push_back({claims.upper_half[item.token], upper});
+      stack.push_back({item.token + 1, lower});
+    } else if (token >= 0) {
+      const std::vector<int>& alive = cover.alive[static_cast<std::size_t>(token)];
+      if (std::all_of(curves.begin(), curves.end(),
+                      [&](int c) { return std::binary_search(alive.begin(), alive.end(), c); }))
+        return false;
+    } else if (token == cover::kUnresolved) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
 void check_crossing_covers(Claims& claims) {
   const Encasement& e = claims.result;
   const std::size_t n = e.curves.size();
@@ -323,9 +359,11 @@ void check_crossing_covers(Claims& claims) {
                    ? nullptr
                    : "is in no unresolved box of the pair";
       if (token == cover::kExcluded)
-        return by_parts(
-                   leaf,
-                   [&](const Box<2>& box) { return no_common_zero<2>(pair, box, part.kernel); })
+        return apart_in_shared_cover(part, c.curves, leaf) ||
+                       by_parts(leaf,
+                                [&](const Box<2>& box) {
+                                  return no_common_zero<2>(pair, box, part.kernel);
+                                })
                    ? nullptr
                    : "is not proved free of crossings";
       const Crossing& crossing = e.crossings[static_cast<std::size_t>(token)];

@@ -25,6 +25,10 @@ inline bool halves_exactly(const Box<2>& box) {
   return centered(box.lo[0], box.hi[0]).exact && centered(box.lo[1], box.hi[1]).exact;
 }
 
+inline bool meets_none(const std::vector<Box<2>>& boxes, const Box<2>& box) {
+  return std::none_of(boxes.begin(), boxes.end(), [&](const Box<2>& b) { return b.meets(box); });
+}
+
 /// Whether a box is proved to lie in all half planes, or outside of one (on its positive side).
 inline std::optional<bool> lies_inside(const Box<2>& box, const std::vector<Line>& half_planes) {
   bool inside = true;
@@ -260,6 +264,7 @@ int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
         return cover::kSplitX - axis;
   node.part = kWhole;
   if (!node.inside && outside(node)) return cover::kOutside;
+  if (limits_.places && meets_none(*limits_.places, node.box)) return cover::kExcluded;
   if (!provide_patches(node)) return wider_axis(node.box);
   return visit(node);
 }

@@ -84,6 +84,13 @@ TEST(ManyCurves, PairsAreSoughtWhereTheyMeet) {
   EXPECT_LT(e.statistics.root_boxes, 200 * e.statistics.pairs_isolated);
 }
 
+Line line_of(double a, double b, double c) {
+  Line line;
+  line.normal = {a, b};
+  line.offset = c;
+  return line;
+}
+
 class NestedTilesOf : public testing::Test {
  protected:
   NestedTiles make(const NamedCurve& curve, const Box<2>& box, bool nested = true) {
@@ -114,8 +121,7 @@ TEST_F(NestedTilesOf, WideBoxesHaveTilesOfTheirOwnAroundTheMiddle) {
 TEST_F(NestedTilesOf, LinesStopWhereTheyEnterAndLeaveInnerBoxes) {
   const Box<2> wide{{-5000, -4000}, {5100, 4000}};
   NestedTiles tiles = make(dense_curves(5, 1, 50)[0], wide);
-  for (const Line& line :
-       {Line{{1, 2}, 0.25, {}}, Line{{1, 0}, 0.1, {}}, Line{{-1, 1e-9}, 3, {}}}) {
+  for (const Line& line : {line_of(1, 2, 0.25), line_of(1, 0, 0.1), line_of(-1, 1e-9, 3)}) {
     const int p = parameter_axis(line);
     std::vector<double> stops;
     tiles.append_stops(0, line, -3000, 2500, &stops);
@@ -134,8 +140,8 @@ TEST_F(NestedTilesOf, LinesStopWhereTheyEnterAndLeaveInnerBoxes) {
   }
   // A line that misses the inner boxes, and a part of one that ends before them.
   std::vector<double> stops;
-  tiles.append_stops(0, Line{{0, 1}, -3500, {}}, -3000, 2500, &stops);
-  tiles.append_stops(0, Line{{0, 1}, -0.5, {}}, -3000, -2000, &stops);
+  tiles.append_stops(0, line_of(0, 1, -3500), -3000, 2500, &stops);
+  tiles.append_stops(0, line_of(0, 1, -0.5), -3000, -2000, &stops);
   EXPECT_TRUE(stops.empty());
 }
 
