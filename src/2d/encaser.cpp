@@ -356,8 +356,11 @@ void Encaser::isolate_crossings() {
     for (Box<2>& box : curve_roots_)
       if (box.width(0) > 0) box = root_around(box, whole);
     std::vector<Pair> pairs;
-    for (MeetingPair& pair : meeting_pairs(shared))
-      pairs.push_back({pair.curves, root_around(pair.hull, whole), std::move(pair.leaves)});
+    for (MeetingPair& pair : meeting_pairs(shared)) {
+      pairs.push_back({pair.curves, root_around(pair.hull, whole), {}});
+      // Where the shared cover is not complete, others may have both curves.
+      if (shared.unresolved.empty()) pairs.back().leaves = std::move(pair.leaves);
+    }
     isolate_pairs(pairs);
     result_.shared_cover = std::move(shared.cover);
   } else {

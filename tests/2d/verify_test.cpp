@@ -936,7 +936,7 @@ TEST(Verify, SurvivesIndicesOutOfRangeAndNumbersThatAreNone) {
         [&](auto& m) { m.critical_covers[0].curve = bad; },
         [&](auto& m) { m.critical_covers[0].tokens.back() = bad; },
         [&](auto& m) { m.critical_regions[0].curve = bad; },
-        [&](auto& m) { m.critical_regions[0].sign = static_cast<Sign>(bad == -1 ? 0 : bad); },
+        [&](auto& m) { m.critical_regions[0].sign = static_cast<Sign>(bad == -1 ? 0 : 7); },
         [&](auto& m) { m.curves[0].sources[0] = bad; },
         [&](auto& m) { m.outcome = static_cast<Outcome>(bad); },
         [&](auto& m) { m.crossings[0].location = static_cast<Location>(bad); },

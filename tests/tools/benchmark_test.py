@@ -15,7 +15,7 @@ import unittest
 from xml.etree import ElementTree
 
 BENCHMARK = None
-SHORT = ("--degrees", "2,3", "--seeds", "1", "--repeat", "1", "--most-curves", "50")
+SHORT = ("--degrees", "2,3", "--seeds", "1", "--repeat", "1", "--most-curves", "30")
 PAIRS_AND_SETTINGS = [(2, "default"), (2, "fast"), (3, "default"), (3, "fast")]
 
 
@@ -112,7 +112,7 @@ class ShortRun(unittest.TestCase):
 
     def test_arcs_have_the_nodes_and_edges_of_an_arrangement(self):
         self.assertEqual([(row["degree"], row["curves"]) for row in self.tables["arcs"]],
-                         [(5, 50), (9, 20), (9, 40)])
+                         [(9, 20)])
         for row in self.tables["arcs"]:
             self.assertEqual(row["certified"], "yes")
             self.assertGreater(row["nodes"], row["crossings"])
@@ -120,7 +120,7 @@ class ShortRun(unittest.TestCase):
 
     def test_arrangements_are_those_that_cgal_finds(self):
         rows = self.tables["arrangements"]
-        self.assertEqual([row["curves"] for row in rows], [10, 20, 30, 40, 50])
+        self.assertEqual([row["curves"] for row in rows], [10, 20, 30])
         for row in rows:
             if "without CGAL" in self.machine:
                 self.assertNotIn("the same", row)
