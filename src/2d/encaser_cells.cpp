@@ -13,8 +13,8 @@ namespace encase {
 namespace {
 
 // A part is worth so much work, and there are enough of them for the threads of most machines.
-constexpr std::size_t kLeastPart = 64;
-constexpr int kMostHalvings = 6;
+constexpr std::size_t kLeastPart = 128;
+constexpr int kMostHalvings = 12;
 
 /// About in proportion to the work that a cell takes.
 std::size_t size_of(const OpenCell& cell) {
@@ -91,13 +91,19 @@ void Encaser::split_in_parts(const SplittingTask& task, CellSplitter* result) {
       }
     });
     std::vector<Part*> next;
-    for (Part* part : level)
+    for (Part* part : level) {
+      // Each half may have cells in proportion to its size.
+      double size = 0;
+      for (const OpenCell& half : part->halves) size += static_cast<double>(size_of(half) + 1);
+      const int left =
+          std::max(0, part->most_cells - static_cast<int>(part->splitter.cells.size()));
       for (const OpenCell& half : part->halves) {
-        const int left = part->most_cells - static_cast<int>(part->splitter.cells.size());
-        part->parts.push_back(
-            std::make_unique<Part>(*this, part->partition, half, of_part, std::max(left, 0) / 2));
+        const double share = static_cast<double>(size_of(half) + 1) / size;
+        part->parts.push_back(std::make_unique<Part>(*this, part->partition, half, of_part,
+                                                     static_cast<int>(share * left)));
         next.push_back(part->parts.back().get());
       }
+    }
     level = std::move(next);
   }
   int left = options_.max_cells - cells_in(all);

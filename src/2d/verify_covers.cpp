@@ -359,7 +359,7 @@ void check_crossing_covers(Claims& claims) {
                    ? nullptr
                    : "is in no unresolved box of the pair";
       if (token == cover::kExcluded)
-        return apart_in_shared_cover(claims, c.curves, leaf) ||
+        return apart_in_shared_cover(part, c.curves, leaf) ||
                        by_parts(leaf,
                                 [&](const Box<2>& box) {
                                   return no_common_zero<2>(pair, box, part.kernel);

@@ -153,7 +153,8 @@ TEST(Partition, JoinsWhatAPartMadeOfAHalf) {
   for (int k = 0; k < 4; ++k)
     EXPECT_EQ(part.lines[lower.edges[k].line].offset, whole.lines[below.edges[k].line].offset);
   // Either refines the interval of the crossing on the line between them.
-  const int shared = below.edges[2].line == 4 ? 1 : 0;
+  int shared = 0;
+  while (shared < 2 && whole.line_crossings[below.word[shared]].line != 4) ++shared;
   const int id = below.word[shared];
   ASSERT_EQ(whole.line_crossings[id].line, 4);
   LineCrossing &ours = whole.line_crossings[id], &theirs = part.line_crossings[shared];
