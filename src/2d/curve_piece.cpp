@@ -51,6 +51,14 @@ void shift(const Tile& tile, const Point<2>& o, int axis, Expansion* expansion) 
   shift_rows(o[axis], m, &expansion->c);
 }
 
+/// Replaces t by t + slope * s, by Horner's scheme among the terms of each degree.
+void shear(double slope, Expansion* e) {
+  auto& c = e->c;
+  for (int d = 1; d <= e->degree; ++d)
+    for (int k = 0; k < d; ++k)
+      for (int j = d - 1; j >= k; --j) c[d - j][j] += slope * c[d - j - 1][j + 1];
+}
+
 /// Replaces s by s * half[0] and t by t * half[1].
 void scale(const Point<2>& half, Expansion* expansion) {
   double along = 1;
@@ -104,33 +112,45 @@ double largest_on_line(const Expansion& e, double alpha, double beta) {
   return std::fabs(c0 + c2) + std::fabs(c1) + std::fabs(c2);
 }
 
-bool inside(const Box<2>& box, const Point<2>& center, const Point<2>& half) {
-  for (int k = 0; k < 2; ++k)
-    if (!(round_up(center[k] - half[k]) <= box.lo[k] &&
-          box.hi[k] <= round_down(center[k] + half[k])))
-      return false;
-  return true;
-}
-
 double clamped(double factor, double least, double most) {
   return std::isnan(factor) ? least : std::clamp(factor, least, most);
 }
 
 }  // namespace
 
+Interval Tube::along(const Box<2>& box) const {
+  const double low = (box.lo[axis] - center[axis]) / half[axis],
+               high = (box.hi[axis] - center[axis]) / half[axis];
+  const double margin = 0x1p-49 * std::max(std::fabs(low), std::fabs(high));
+  return {low - margin, high + margin};
+}
+
+Interval Tube::across(const Box<2>& box) const {
+  const int v = 1 - axis;
+  Interval result(HUGE_VAL, -HUGE_VAL);
+  for (const double p : {box.lo[axis], box.hi[axis]})
+    for (const double q : {box.lo[v], box.hi[v]}) {
+      const double straight = q - center[v], inclined = slope * (p - center[axis]);
+      const double t = (straight - inclined) / half[v];
+      const double margin =
+          0x1p-49 * (std::fabs(straight) + std::fabs(inclined)) / half[v] + 0x1p-900;
+      result.lo = std::min(result.lo, t - margin);
+      result.hi = std::max(result.hi, t + margin);
+    }
+  return result;
+}
+
+bool Tube::holds(const Box<2>& box) const {
+  const Interval s = along(box), t = across(box);
+  return -1 <= s.lo && s.hi <= 1 && -1 <= t.lo && t.hi <= 1;
+}
+
 bool Tube::may_meet(const Box<2>& box) const {
-  // Coordinates and products of numbers up to `size` in absolute value, a few roundings each.
-  double s[2], t[2], size = 2;
-  for (const int end : {0, 1}) {
-    const Point<2>& p = end == 0 ? box.lo : box.hi;
-    s[end] = (p[axis] - center[axis]) / half[axis];
-    t[end] = (p[1 - axis] - center[1 - axis]) / half[1 - axis];
-    size = std::max({size, std::fabs(s[end]), std::fabs(t[end])});
-  }
-  const double margin = 0x1p-46 * size;
-  if (s[1] < from - margin || s[0] > to + margin) return false;
-  const double p = alpha + beta * s[0], q = alpha + beta * s[1];
-  return !(t[1] < std::min(p, q) - delta - margin || t[0] > std::max(p, q) + delta + margin);
+  const Interval s = along(box), t = across(box);
+  if (s.hi < from - 0x1p-48 || s.lo > to + 0x1p-48) return false;
+  const double p = alpha + beta * s.lo, q = alpha + beta * s.hi;
+  const double margin = delta + 0x1p-50 * (std::fabs(p) + std::fabs(q) + 1);
+  return !(t.hi < std::min(p, q) - margin || t.lo > std::max(p, q) + margin);
 }
 
 /// What is asked of a tile.
@@ -142,7 +162,8 @@ struct PieceProver::Question {
   int direction;
   double goal;
   Point<2> center;
-  Point<2> half;  ///< of both ends with their boxes, around the centre
+  Point<2> half;     ///< of both ends with their boxes, around the centre
+  double thickness;  ///< the largest distance, in a coordinate, of a box from its point
 };
 
 /// One attempt with one tile. Its steps fill in `attempt`.
@@ -181,13 +202,17 @@ class PieceProver::Trial {
       if (!(std::fabs(o[k]) <= kReach)) return Fit::Outside;
     }
     shift(tile_, o, u_, &e_);
+    // In a parallelogram along the chord.
     const double du = 0.5 * (q_.to.point[u_] - q_.from.point[u_]) / tile_.half[u_];
     const double dv = 0.5 * (q_.to.point[v_] - q_.from.point[v_]) / tile_.half[v_];
+    const double incline = dv / du;
+    if (!(std::fabs(incline) <= 0x1p20)) return Fit::Good;
+    shear(incline, &e_);
+    tube_.slope = incline * tile_.half[v_] / tile_.half[u_];
     const auto& c = e_.c;
-    double bend = 0, power = du * du;
-    if (e_.degree >= 2) bend = std::fabs(c[2][0] * power + (c[1][1] * du + c[0][2] * dv) * dv);
-    for (int i = 3; i <= e_.degree; ++i) bend += std::fabs(c[i][0] * (power *= du));
-    lost_ = roundings(5 * e_.degree + 8);
+    double bend = 0, power = du;
+    for (int i = 2; i <= e_.degree; ++i) bend += std::fabs(c[i][0] * (power *= du));
+    lost_ = roundings(8 * e_.degree + 16);
     error_ = (tile_.error + lost_ * tile_.sum) * kUp + kUnderflow;
     const double across = tile_.half[v_] / std::fabs(c[0][1]);
     noise_ = error_ * across;
@@ -195,15 +220,15 @@ class PieceProver::Trial {
     if (!(room <= 4 * std::max(q_.half[u_], q_.half[v_])))
       return noise_ > bend * across ? Fit::Noisy : Fit::Good;
     tube_.half[u_] = q_.half[u_] * (1 + 0x1p-6);
-    tube_.half[v_] = q_.half[v_] * (1 + 0x1p-6) + room + 0x1p-10 * q_.half[u_];
-    for (int k = 0; k < 2; ++k) {
-      part[k] = tube_.half[k] / tile_.half[k];
-      if (!(std::fabs(o[k]) + part[k] <= kReach)) return Fit::Outside;
-    }
-    if (!inside(q_.from.box, tube_.center, tube_.half) ||
-        !inside(q_.to.box, tube_.center, tube_.half))
-      return Fit::Good;
+    tube_.half[v_] = q_.thickness * (1 + std::fabs(tube_.slope)) * (1 + 0x1p-6) + room +
+                     0x1p-20 * (q_.half[u_] + q_.half[v_]);
+    for (int k = 0; k < 2; ++k) part[k] = tube_.half[k] / tile_.half[k];
+    if (!(std::fabs(o[u_]) + part[u_] <= kReach) ||
+        !(std::fabs(o[v_]) + std::fabs(incline) * part[u_] + part[v_] <= kReach))
+      return Fit::Outside;
+    if (!tube_.holds(q_.from.box) || !tube_.holds(q_.to.box)) return Fit::Good;
     scale({part[u_], part[v_]}, &e_);
+    chord_error_ = kChordError * (1 + 2 * std::fabs(incline) * part[u_] / part[v_]);
     slope_error_ = part[v_] * (tile_.slope_error + lost_ * tile_.slope) * kUp + kUnderflow;
     return std::nullopt;
   }
@@ -228,7 +253,7 @@ class PieceProver::Trial {
     for (const int end : {0, 1}) {
       const Point<2>& p = (end == 0 ? q_.from : to_).point;
       s_[end] = (p[u_] - tube_.center[u_]) / tube_.half[u_];
-      t_[end] = (p[v_] - tube_.center[v_]) / tube_.half[v_];
+      t_[end] = across(p);
     }
     if (q_.free) move_end();
     if (!(std::fabs(s_[1] - s_[0]) >= 1)) return false;
@@ -237,30 +262,35 @@ class PieceProver::Trial {
     const double largest =
         (largest_on_line(e_, tube_.alpha, tube_.beta) + sums_.high + error_) * kUp +
         roundings(64) * sums_.all;
-    tube_.delta = largest / least_slope_ * kUp + kChordError;
+    tube_.delta = largest / least_slope_ * kUp + chord_error_;
     return std::fabs(tube_.alpha) + std::fabs(tube_.beta) + tube_.delta <= 1 - 0x1p-40;
+  }
+
+  double across(const Point<2>& p) const {
+    return (p[v_] - tube_.center[v_] - tube_.slope * (p[u_] - tube_.center[u_])) / tube_.half[v_];
   }
 
   /// To where the tile sees the curve, and then to where it is.
   void move_end() {
     constexpr int kIterations = 2;
     for (int k = 0; k < kIterations; ++k) t_[1] -= value_at(e_, s_[1], t_[1]) / e_.c[0][1];
-    double& across = to_.point[v_];
-    across = tube_.center[v_] + t_[1] * tube_.half[v_];
+    double& place = to_.point[v_];
+    place = tube_.center[v_] + tube_.slope * (to_.point[u_] - tube_.center[u_]) +
+            t_[1] * tube_.half[v_];
     value_ = f_.value(to_.point);
     const double change = value_ / e_.c[0][1] * tube_.half[v_];
-    if (std::fabs(change) > 0x1p-50 * std::fabs(across) && std::fabs(change) < tube_.half[v_]) {
-      across -= change;
+    if (std::fabs(change) > 0x1p-50 * std::fabs(place) && std::fabs(change) < tube_.half[v_]) {
+      place -= change;
       value_ = f_.value(to_.point);
     }
-    t_[1] = (across - tube_.center[v_]) / tube_.half[v_];
+    t_[1] = across(to_.point);
   }
 
   /// Gives an end that is free its box, a segment across the axis.
   bool enclose_end() {
     const double residue = (std::fabs(value_) * (1 + 0x1p-51) + tile_.value_error) * kUp;
     const double away = residue / least_slope_ * kUp;
-    if (!(std::fabs(t_[1]) + away <= 1 - 0x1p-40)) return false;
+    if (!(std::fabs(t_[1]) + away + chord_error_ <= 1 - 0x1p-40)) return false;
     const double reach = away * tube_.half[v_] * kUp + kUnderflow;
     to_.box = {to_.point, to_.point};
     to_.box.lo[v_] = round_down(to_.point[v_] - reach);
@@ -285,7 +315,8 @@ class PieceProver::Trial {
     const Box<2> ends = hull(q_.from.box, to_.box);
     tube_.from = (ends.lo[u_] - tube_.center[u_]) / tube_.half[u_];
     tube_.to = (ends.hi[u_] - tube_.center[u_]) / tube_.half[u_];
-    const double incline = std::fabs(tube_.beta) * tube_.half[v_] / tube_.half[u_];
+    const double incline =
+        std::fabs(tube_.slope) + std::fabs(tube_.beta) * tube_.half[v_] / tube_.half[u_];
     const double distance =
         (tube_.delta * tube_.half[v_] + (1 + incline) * slack) * kUp + kUnderflow;
     attempt_.proved = true;
@@ -303,6 +334,7 @@ class PieceProver::Trial {
   Expansion e_;  ///< in the rectangle's coordinates
   Sums sums_;
   double lost_ = 0, error_ = 0, slope_error_ = 0;
+  double chord_error_ = 0;
   double noise_ = 0;  ///< what the error amounts to, in input units
   double least_slope_ = 0;
   double s_[2], t_[2];  ///< the ends
@@ -328,10 +360,13 @@ bool PieceProver::expand_around(const Question& q, double reach, int bits) {
 
 Attempt PieceProver::prove(const CurvePoint& from, const CurvePoint& to, bool free, int axis,
                            int direction, double goal) {
-  Question q{from, to, free, axis, direction, goal, {}, {}};
+  Question q{from, to, free, axis, direction, goal, {}, {}, 0};
   Box<2> ends = hull(hull(from.box, to.box),
                      hull(Box<2>{from.point, from.point}, Box<2>{to.point, to.point}));
   q.center = ends.center();
+  for (const CurvePoint* p : {&from, &to})
+    for (int k = 0; k < 2; ++k)
+      q.thickness = std::max({q.thickness, p->box.hi[k] - p->point[k], p->point[k] - p->box.lo[k]});
   double size = 0;
   for (int k = 0; k < 2; ++k) {
     q.half[k] = std::max(q.center[k] - ends.lo[k], ends.hi[k] - q.center[k]);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "2d/partition.hpp"
+#include "common/interval.hpp"
 #include "common/kernel.hpp"
 #include "common/tile.hpp"
 #include "encase/geometry.hpp"
@@ -17,16 +18,26 @@ struct CurvePoint {
   Box<2> box;
 };
 
-/// On the rectangle center +- half, in its coordinates s (along `axis`) and t in [-1,1], a curve is
-/// a graph t = g(s) for all s, within `delta` of the line t = alpha + beta s.
+/// A parallelogram beside a chord, with the coordinates s and t in [-1, 1]: the coordinate along
+/// `axis` is center + half s there, the other one center + half t + slope half s (with the half
+/// width of the axis). In it a curve is a graph t = g(s) for all s, within `delta` of the line t =
+/// alpha + beta s.
 struct Tube {
   int axis = 0;
   Point<2> center{}, half{};
+  double slope = 0;
   double alpha = 0, beta = 0, delta = 0;
   double from = 0, to = 0;  ///< the piece lies over [from, to] of s, or less
 
   /// Whether the piece may have a point in the box; false is proved.
   bool may_meet(const Box<2>& box) const;
+  /// Whether the parallelogram contains the box; true is proved.
+  bool holds(const Box<2>& box) const;
+
+ private:
+  /// Enclosures of s and t on a box.
+  Interval along(const Box<2>& box) const;
+  Interval across(const Box<2>& box) const;
 };
 
 /// A piece of a curve from one point to the next, beside its chord.

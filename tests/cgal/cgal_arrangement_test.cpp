@@ -54,7 +54,8 @@ TEST_P(CgalArrangements, HaveTheSameCrossingsAndFaces) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Random, CgalArrangements,
-                         testing::Values(Family{1, 12, 20}, Family{2, 8, 20}, Family{3, 6, 20},
+                         testing::Values(Family{1, 12, 20}, Family{2, 8, 20}, Family{2, 12, 20},
+                                         Family{3, 6, 20}, Family{3, 12, 20}, Family{4, 12, 20},
                                          Family{4, 4, 20}, Family{5, 10, 50}, Family{5, 20, 50}));
 
 }  // namespace
