@@ -27,6 +27,8 @@ using encased::run;
 using Feature = Arrangement::Feature;
 using located_points::arranged;
 using located_points::count;
+using located_points::exact_sign;
+using located_points::exactly;
 using located_points::expect_locates;
 using located_points::expect_right;
 using located_points::mixed_curves;

@@ -30,7 +30,8 @@ void expect_accepted(const Encasement& e, const Arrangement& a) {
 
 TEST(VerifyArrangement, IsAClaimOfEveryCertifiedEncasement) {
   const auto objections = [](const Encasement& e) {
-    verification::Claims claims(e, {});
+    verification::Facts facts{e, {}};
+    verification::Claims claims(facts);
     verification::check_arrangement(claims);
     return text(claims.report);
   };
