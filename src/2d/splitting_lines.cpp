@@ -9,12 +9,13 @@
 namespace encase {
 namespace {
 
-constexpr double kMiddle = 0.35;       // where the middle of the projections begins
-constexpr int kMostInMiddle = 1500;    // projections
-constexpr int kMaxBisected = 6;        // crossings up to which pairs of them are bisected
-constexpr int kBisectedPairs = 3;      // of crossings
-constexpr int kSaddles = 4;            // of a curve
-constexpr int kBranchPairs = 6;        // of boundary points of a curve, on different branches
+constexpr double kMiddle = 0.35;     // where the middle of the projections begins
+constexpr int kMostInMiddle = 1500;  // projections
+constexpr int kMaxBisected = 6;      // crossings up to which pairs of them are bisected
+constexpr int kBisectedPairs = 3;    // of crossings
+constexpr int kSaddles = 4;          // of a curve
+constexpr int kBranchPairs = 12;     // of boundary points of a curve, on different branches
+constexpr int kBranchPairsWhenFast = 6;
 constexpr int kSplitCurves = 4;        // curves the branches of which are told apart
 constexpr int kCurvePairs = 4;         // of neighbours on the boundary, of different curves
 constexpr int kApproachedPairs = 8;    // of boundary points
@@ -22,7 +23,7 @@ constexpr int kMostApproached = 2000;  // points, of all pairs of which the clos
 constexpr int kApproachSteps = 2;
 constexpr int kProjections = 2;           // onto the curve, in each
 constexpr double kEnoughWhenFast = -0.5;  // expected cells that a cut has to save
-constexpr double kPoor = 0.5;  // a cut that does not save so many calls for closest approach
+constexpr double kPoor = 1;  // a cut that does not save so many calls for closest approach
 constexpr double kPoorWhenFast = -1;
 constexpr double kPoorWhenStalled = 0;  // and in the first levels without progress for fans
 constexpr int kFanLevels = 2;
@@ -166,7 +167,7 @@ void SplittingLines::propose_between_branches() {
         if (points[j].curve == c && (points[j].index - points[i].index) % 2 == 0)
           pairs_.push_back({i, j, square_distance(points[i].at, points[j].at)});
     }
-    keep_closest(kBranchPairs);
+    keep_closest(fast_ ? kBranchPairsWhenFast : kBranchPairs);
     for (const Pair& p : pairs_) {
       cell_.propose(between(points[p.a], points[p.b]));
       if (is_good_enough()) return;
