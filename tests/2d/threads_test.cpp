@@ -39,6 +39,7 @@ std::vector<Scene> scenes() {
   all.push_back({"a pair", random(12, 2, 1)});
   all.push_back({"six curves", random(8, 6, 2)});
   all.push_back({"twenty curves", random(5, 20, 3)});
+  all.push_back({"tiles that are made on the way", random(24, 4, 9)});
   all.push_back({"touching, singular, concurrent and repeated",
                  encased::curves({"x^2 + y^2 - 1/4", "(x-1)^2 + y^2 - 1/4", "y^2 - x^3 - x^2",
                                   "x - 2 y", "x + 3 y", "(x - 1/3)^2 (y + x^2)", "y + x^2"})});
