@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -113,12 +114,32 @@ std::vector<Polyline> trace_curve(const Encasement& encasement, int curve, doubl
 
 std::vector<Polyline> trace_edges(const Encasement& encasement, const Arrangement& arrangement,
                                   double tolerance) {
-  TraceOptions options;
-  options.tolerance = sensible(encasement, tolerance);
-  options.check_topology = false;
+  std::vector<std::unique_ptr<CurveTracer>> tracers(encasement.curves.size());
+  const auto tracer = [&](int curve) -> CurveTracer& {
+    auto& made = tracers[curve];
+    if (!made)
+      made = std::make_unique<CurveTracer>(encasement, curve, sensible(encasement, tolerance));
+    return *made;
+  };
+  const auto end_of_side = [&](int vertex) {
+    const Arrangement::Vertex& v = arrangement.vertices[vertex];
+    if (v.kind == Arrangement::Vertex::Kind::Corner) return v.point;
+    return tracer(encasement.line_crossings[v.index].curve).at_line_crossing(v.index).point;
+  };
   std::vector<Polyline> lines;
-  Tracing tracing = trace(encasement, arrangement, options).value();
-  for (TracedEdge& edge : tracing.edges) lines.push_back(std::move(edge.points));
+  for (std::size_t k = 0; k < arrangement.edges.size(); ++k) {
+    const Arrangement::Edge& edge = arrangement.edges[k];
+    Polyline& line = lines.emplace_back();
+    if (edge.curve < 0)
+      for (const std::size_t h : {2 * k, 2 * k + 1})
+        line.push_back(end_of_side(arrangement.half_edges[h].origin));
+    for (const Arrangement::Strand& strand : edge.strands) {
+      const CurvePath path = tracer(edge.curve).edge({strand}, kMostPieces);
+      const bool goes_on = !line.empty();
+      for (std::size_t i = goes_on ? 1 : 0; i < path.points.size(); ++i)
+        line.push_back(path.points[i].point);
+    }
+  }
   return lines;
 }
 

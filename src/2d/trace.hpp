@@ -21,8 +21,9 @@ Polyline trace_branch(const Encasement& encasement, int cell, const Branch& bran
 /// last point is their first. What runs through cells without certified branches is missing.
 std::vector<Polyline> trace_curve(const Encasement& encasement, int curve, double tolerance);
 
-/// The edges of an arrangement along their first half-edges; loops end where they begin. Edges that
-/// meet in a vertex have the same point there.
+/// The edges of an arrangement along their first half-edges, strand by strand, with a point at
+/// every line crossing on them; loops end where they begin. Edges that meet in a vertex have the
+/// same point there.
 std::vector<Polyline> trace_edges(const Encasement& encasement, const Arrangement& arrangement,
                                   double tolerance);
 

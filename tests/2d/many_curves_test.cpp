@@ -81,7 +81,7 @@ TEST(ManyCurves, PairsAreSoughtWhereTheyMeet) {
       std::count_if(e.crossing_covers.begin(), e.crossing_covers.end(),
                     [&](const CrossingCover& c) { return c.root.largest_width() < 0.1 * whole; });
   EXPECT_GT(2 * small, static_cast<long>(e.crossing_covers.size()));
-  EXPECT_LT(e.statistics.root_boxes, 200 * e.statistics.pairs_isolated);
+  EXPECT_LT(e.statistics.root_boxes, 300 * e.statistics.pairs_isolated);
 }
 
 Line line_of(double a, double b, double c) {
