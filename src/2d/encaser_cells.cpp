@@ -9,7 +9,6 @@
 #include "common/segments.hpp"
 
 namespace encase {
-
 namespace {
 
 // A part is worth so much work, and there are enough of them for the threads of most machines.
