@@ -400,8 +400,10 @@ bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile
     else
       expand(tile, node.box, net);
   };
-  if (node.level < 2 * kLevelsPerBand && local_[i].empty()) {
-    const Tile* tile = &polynomials_[i]->at(node.box.center());
+  const bool has_local = !local_[i].empty();  // of an ancestor
+  if (node.level < 2 * kLevelsPerBand || has_local) {
+    const Tile* tile =
+        has_local ? local_[i].back().tile.get() : &polynomials_[i]->at(node.box.center());
     Point<2> parts;
     for (int axis = 0; axis < 2; ++axis)
       parts[axis] = 0.5 * node.box.width(axis) / tile->half[axis];
