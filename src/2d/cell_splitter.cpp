@@ -31,21 +31,18 @@ Point<2> rounded_meet(const Line& first, const Line& second, const Place& at, do
 }  // namespace
 
 CellSplitter::CellSplitter(Partition& partition, const SplittingTask& task)
-    : partition_(partition),
-      task_(task),
-      at_hand_(partition),
-      lines_(at_hand_, task.options.fast) {}
+    : partition_(partition), task_(task) {}
 
 CellSplitter::Shape CellSplitter::shape_of_cell() const {
-  const OpenCell& cell = at_hand_.cell();
+  const OpenCell& cell = work_->at_hand.cell();
   int curves = 0;
-  for (const auto& presence : at_hand_.curves()) {
+  for (const auto& presence : work_->at_hand.curves()) {
     if (presence.ends > 2) return Shape::Complex;
     curves += presence.ends > 0;
   }
   if (curves < 2) return cell.crossings.empty() ? Shape::Simple : Shape::Complex;
   if (curves > 2) return Shape::Complex;
-  const bool alternates = at_hand_.curve_at(0) == at_hand_.curve_at(2);
+  const bool alternates = work_->at_hand.curve_at(0) == work_->at_hand.curve_at(2);
   if (cell.crossings.size() == 1 && alternates) return Shape::Simple;
   if (cell.crossings.empty() && !alternates) return Shape::Relaxable;
   return Shape::Complex;
@@ -65,7 +62,7 @@ bool CellSplitter::find_cut_at_zone(const OpenCell& cell, CellState* settled) {
         around.hi[i] = zone.box.hi[i] + scale * (zone.clearance.hi[i] - zone.box.hi[i]);
       }
       if (around.contains(bounds)) break;
-      if (lines_.find_along(around)) return true;
+      if (work_->lines.find_along(around)) return true;
     }
   }
   // What is left of a cell around a zone is not proved.
@@ -79,13 +76,13 @@ bool CellSplitter::find_cut_at_zone(const OpenCell& cell, CellState* settled) {
 
 /// Whether the line that cut the cell at hand in the earlier encasement cuts it now.
 bool CellSplitter::repeat_cut() {
-  const int cut = at_hand_.cell().earlier_cut;
-  return cut >= 0 && at_hand_.prove_only(task_.earlier.line(cut));
+  const int cut = work_->at_hand.cell().earlier_cut;
+  return cut >= 0 && work_->at_hand.prove_only(task_.earlier.line(cut));
 }
 
 /// The line that splits the cell at hand next, or false and the state it is settled in.
 bool CellSplitter::find_cut(CellState* settled) {
-  const OpenCell& cell = at_hand_.cell();
+  const OpenCell& cell = work_->at_hand.cell();
   if (!cell.zones.empty()) return find_cut_at_zone(cell, settled);
   *settled = CellState::Undecided;
   const Shape shape = shape_of_cell();
@@ -93,17 +90,17 @@ bool CellSplitter::find_cut(CellState* settled) {
   const bool relax =
       shape == Shape::Relaxable && (options.relaxed || cell.stall >= options.relax_after_splits);
   if (shape != Shape::Simple && !relax)
-    return cell.depth < 400 && (lines_.find_best() || lines_.find_any());
+    return cell.depth < 400 && (work_->lines.find_best() || work_->lines.find_any());
   // Loops last: a ray for every critical region inside, or a split through it.
   for (const int k : cell.critical_regions) {
-    if (auto certificate = certify_no_loop(at_hand_, k)) {
+    if (auto certificate = certify_no_loop(work_->at_hand, k)) {
       certificates_.push_back(*certificate);
       continue;
     }
     ++loop_splits;
     for (const Box<2>& box : partition_.critical_regions[k].boxes)
-      if (lines_.find_through(box.center())) return true;
-    return lines_.find_any();
+      if (work_->lines.find_through(box.center())) return true;
+    return work_->lines.find_any();
   }
   *settled = relax ? CellState::Relaxed : CellState::Certified;
   return false;
@@ -111,26 +108,28 @@ bool CellSplitter::find_cut(CellState* settled) {
 
 /// Finishes the next cell, or puts its halves on top of the open ones.
 void CellSplitter::process_next() {
+  if (!work_) work_ = std::make_unique<Work>(partition_, task_.options.fast);
   const OpenCell cell = std::move(open_.back());
   open_.pop_back();
   CellState settled = CellState::Undecided;
   certificates_.clear();
-  at_hand_.take(cell);
+  work_->at_hand.take(cell);
   bool repeated = repeat_cut();
   bool found = repeated || find_cut(&settled);
   OpenCell negative(partition_.memory()), positive(partition_.memory());
   // If the order of the roots on the line cannot be proved: any other line.
-  if (found && !partition_.apply(cell, &at_hand_.cut(), &negative, &positive)) {
+  if (found && !partition_.apply(cell, &work_->at_hand.cut(), &negative, &positive)) {
     settled = CellState::Undecided;
     repeated = false;
-    found = lines_.find_any() && partition_.apply(cell, &at_hand_.cut(), &negative, &positive);
+    found = work_->lines.find_any() &&
+            partition_.apply(cell, &work_->at_hand.cut(), &negative, &positive);
   }
   if (!found) {
     finish(cell, settled);
     return;
   }
   ++splits;
-  negative.sketches = positive.sketches = at_hand_.sketches();
+  negative.sketches = positive.sketches = work_->at_hand.sketches();
   if (repeated)
     std::tie(negative.earlier_cut, positive.earlier_cut) =
         task_.earlier.next_cuts(cell.earlier_cut);
@@ -145,9 +144,15 @@ void CellSplitter::run(int most_cells) {
                left = static_cast<double>(open_.size() - 1) + features;
     if (count_ % 64 == 63) task_.progress(done / (done + left));
     // The clock is slow to read.
-    if (count_ % 16 == 0 && task_.stop()) return;
+    if (count_ % 16 == 0 && task_.stop()) break;
     process_next();
   }
+  rest();
+}
+
+void CellSplitter::rest() {
+  work_.reset();
+  for (OpenCell& cell : open_) cell.sketches = -1;
 }
 
 bool CellSplitter::halve() {
@@ -158,6 +163,7 @@ bool CellSplitter::halve() {
 std::vector<OpenCell> CellSplitter::hand_over() {
   std::vector<OpenCell> handed_over = std::exchange(open_, {});
   std::reverse(handed_over.begin(), handed_over.end());
+  rest();
   return handed_over;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "2d/earlier_encasement.hpp"
@@ -53,15 +54,22 @@ class CellSplitter {
   enum class Shape { Simple, Relaxable, Complex };
   Shape shape_of_cell() const;
   void process_next();
+  void rest();
   bool repeat_cut();
   bool find_cut(CellState* settled);
   bool find_cut_at_zone(const OpenCell& cell, CellState* settled);
   void finish(const OpenCell& open, CellState state);
 
+  /// What splitting works with. It grows with the curves, so it is given back when splitting ends.
+  struct Work {
+    Work(Partition& partition, bool fast) : at_hand(partition), lines(at_hand, fast) {}
+    CellAtHand at_hand;
+    SplittingLines lines;
+  };
+
   Partition& partition_;
   const SplittingTask& task_;
-  CellAtHand at_hand_;
-  SplittingLines lines_;
+  std::unique_ptr<Work> work_;
   std::vector<OpenCell> open_;                 // the next one last
   std::vector<LoopCertificate> certificates_;  // of the cell at hand
   std::int64_t count_ = 0;                     // of cells taken up
