@@ -16,6 +16,7 @@
 #include "encase/curves_file.hpp"
 #include "encase/result_json.hpp"
 #include "encase/svg.hpp"
+#include "encase/verify.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -81,13 +82,18 @@ struct Input {
   Region region;
 };
 
-/// Reads the earlier result. Names of the new curves that say nothing but their place go on with
-/// its numbers; of the others none may be there already.
+/// Reads the earlier result and proves it again, for what is taken over from it must be. Names of
+/// the new curves that say nothing but their place go on with its numbers; of the others none may
+/// be there already.
 Result<Input> read_onto(const CurvesRequest& r, std::vector<NamedCurve> curves) {
   const auto text = read_input(r.onto);
   if (!text) return text.error();
   auto earlier = encasement_from_json(text.value(), r.onto == "-" ? "standard input" : r.onto);
   if (!earlier) return earlier.error();
+  VerifyOptions verification;
+  verification.threads = r.options.threads;
+  const Verification proof = verify(earlier.value(), verification);
+  if (!proof.ok()) return bad_input(r.onto + " is not proved: " + proof.objections.front());
   const std::vector<NamedCurve>& there = earlier.value().input;
   for (std::size_t k = 0; k < curves.size(); ++k) {
     std::string& name = curves[k].name;

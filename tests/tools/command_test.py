@@ -69,6 +69,16 @@ class Onto(CommandTest):
         self.assertEqual(names, ["circle", "c1", "c2", "line"])
         self.encased(encase("check", later), 0)
 
+    def test_refuses_a_result_that_is_not_proved(self):
+        path = self.earlier()
+        with open(path) as file:
+            result = json.load(file)
+        crossing = result["crossings"][0]
+        crossing["box"] = [[-0.5, -0.25], [0.5, 0.75]]
+        with open(path, "w") as file:
+            json.dump(result, file)
+        self.refused(encase("curves", "-e", "x", "--onto", path), 1, "not proved")
+
     def test_refuses_what_contradicts_the_result(self):
         path = self.earlier()
         self.refused(encase("curves", "-e", "x", "--onto", path, "--region", "0 1 0 1"), 1, "--onto")
