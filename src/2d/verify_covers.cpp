@@ -262,11 +262,13 @@ void check_shared_cover(Claims& claims) {
   check_absent_curves(claims);
 }
 
-std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box) {
+namespace {
+
+/// Calls `visit` with the tokens of the shared cover's leaves, but for those in boxes of which
+/// `misses` is true, until it returns false; tells whether it never did.
+template <class Misses, class Visit>
+bool for_shared_leaves(const Claims& claims, Misses misses, Visit visit) {
   const SharedCover& cover = claims.result.shared_cover;
-  std::vector<int> all(claims.curves.size()), curves;
-  std::iota(all.begin(), all.end(), 0);
-  if (claims.upper_half.empty()) return all;
   struct Item {
     std::size_t token;
     Box<2> box;
@@ -275,24 +277,41 @@ std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box
   while (!stack.empty()) {
     const Item item = stack.back();
     stack.pop_back();
-    // (Bounds of `box` that are no numbers exclude nothing.)
-    bool apart = side(line, item.box, claims.kernel).has_value();
-    for (std::size_t i = 0; i < 2; ++i)
-      apart = apart || box.hi[i] < item.box.lo[i] || item.box.hi[i] < box.lo[i];
-    if (apart) continue;
+    if (misses(item.box)) continue;
     const int token = cover.tokens[item.token];
     if (splits(token)) {
       Box<2> lower, upper;
       halves(item.box, token == cover::kSplitX ? 0 : 1, &lower, &upper);
       stack.push_back({claims.upper_half[item.token], upper});
       stack.push_back({item.token + 1, lower});
-    } else if (token >= 0) {
-      const std::vector<int>& alive = cover.alive[static_cast<std::size_t>(token)];
-      curves.insert(curves.end(), alive.begin(), alive.end());
-    } else if (token == cover::kUnresolved) {
-      return all;
+    } else if (!visit(token)) {
+      return false;
     }
   }
+  return true;
+}
+
+}  // namespace
+
+std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box) {
+  const SharedCover& cover = claims.result.shared_cover;
+  std::vector<int> all(claims.curves.size()), curves;
+  std::iota(all.begin(), all.end(), 0);
+  if (claims.upper_half.empty()) return all;
+  const auto misses = [&](const Box<2>& part) {
+    // (Bounds of `box` that are no numbers exclude nothing.)
+    bool apart = side(line, part, claims.kernel).has_value();
+    for (std::size_t i = 0; i < 2; ++i)
+      apart = apart || box.hi[i] < part.lo[i] || part.hi[i] < box.lo[i];
+    return apart;
+  };
+  const auto collect = [&](int token) {
+    if (token < 0) return token != cover::kUnresolved;
+    const std::vector<int>& alive = cover.alive[static_cast<std::size_t>(token)];
+    curves.insert(curves.end(), alive.begin(), alive.end());
+    return true;
+  };
+  if (!for_shared_leaves(claims, misses, collect)) return all;
   std::sort(curves.begin(), curves.end());
   curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
   return curves;
@@ -303,33 +322,17 @@ namespace {
 /// Whether no leaf of the shared cover that meets the box has both curves, or may have them.
 bool apart_in_shared_cover(const Claims& claims, const std::array<int, 2>& curves,
                            const Box<2>& box) {
-  const SharedCover& cover = claims.result.shared_cover;
   if (claims.upper_half.empty()) return false;
-  struct Item {
-    std::size_t token;
-    Box<2> box;
-  };
-  std::vector<Item> stack{{0, cover.root}};
-  while (!stack.empty()) {
-    const Item item = stack.back();
-    stack.pop_back();
-    if (!item.box.meets(box)) continue;
-    const int token = cover.tokens[item.token];
-    if (splits(token)) {
-      Box<2> lower, upper;
-      halves(item.box, token == cover::kSplitX ? 0 : 1, &lower, &upper);
-      stack.push_back({claims.upper_half[item.token], upper});
-      stack.push_back({item.token + 1, lower});
-    } else if (token >= 0) {
-      const std::vector<int>& alive = cover.alive[static_cast<std::size_t>(token)];
-      if (std::all_of(curves.begin(), curves.end(),
-                      [&](int c) { return std::binary_search(alive.begin(), alive.end(), c); }))
-        return false;
-    } else if (token == cover::kUnresolved) {
-      return false;
-    }
-  }
-  return true;
+  return for_shared_leaves(
+      claims, [&](const Box<2>& part) { return !part.meets(box); },
+      [&](int token) {
+        if (token < 0) return token != cover::kUnresolved;
+        const std::vector<int>& alive =
+            claims.result.shared_cover.alive[static_cast<std::size_t>(token)];
+        return !std::all_of(curves.begin(), curves.end(), [&](int c) {
+          return std::binary_search(alive.begin(), alive.end(), c);
+        });
+      });
 }
 
 }  // namespace
