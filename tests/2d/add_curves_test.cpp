@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "2d/earlier_encasement.hpp"
 #include "common/random_polynomials.hpp"
 #include "encase/arrangement.hpp"
 #include "encase/encasement.hpp"
@@ -161,6 +162,32 @@ TEST(AddCurves, NothingAddedIsTheSameEncasement) {
   const Encasement again = added(earlier, {});
   EXPECT_EQ(again.cells.size(), earlier.cells.size());
   EXPECT_EQ(topology(again), topology(earlier));
+}
+
+TEST(EarlierEncasement, TakesOverOnlyWhatCoversTheSameCurvesInTheSamePolygon) {
+  const Encasement e = encased::run({"x^2 + y^2 - 1/2", "y - x^3"});
+  EarlierEncasement earlier(e);
+  std::vector<Crossing> crossings;
+  std::vector<CrossingCover> crossing_covers;
+  std::vector<CriticalRegion> regions;
+  std::vector<CriticalCover> critical_covers;
+  const auto takes = [&](const Box<2>& box) {
+    const bool both = earlier.append_crossings({0, 1}, box, &crossings, &crossing_covers);
+    EXPECT_EQ(earlier.append_critical_regions(0, box, &regions, &critical_covers), both);
+    return both;
+  };
+  const Box<2> root = e.crossing_covers[0].root;
+  Box<2> larger = root;
+  larger.hi[0] += 1;
+  EXPECT_FALSE(takes(root));
+  earlier.match(e.curves, e.region_used);
+  EXPECT_TRUE(takes(root));
+  EXPECT_EQ(crossings.size(), 2u);
+  EXPECT_FALSE(takes(larger));
+  earlier.match(e.curves, encased::rectangle(-2, 2, -2, 2));
+  EXPECT_FALSE(takes(root));
+  earlier.match({e.curves[1], e.curves[0]}, e.region_used);
+  EXPECT_FALSE(takes(root));
 }
 
 }  // namespace
