@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "encase/expression.hpp"
+#include "encase/polynomial.hpp"
+
+namespace encase {
+
+/// What a curve or surface is the zero set of: a polynomial, or an expression that is none.
+template <int D>
+class Function {
+ public:
+  Function() = default;
+  Function(Polynomial<D> polynomial) : function_(std::move(polynomial)) {}
+  Function(Expression expression) : function_(std::move(expression)) {}
+
+  bool is_polynomial() const { return std::holds_alternative<Polynomial<D>>(function_); }
+  /// Only of a polynomial.
+  const Polynomial<D>& polynomial() const { return std::get<Polynomial<D>>(function_); }
+  /// Only of what is none.
+  const Expression& expression() const { return std::get<Expression>(function_); }
+
+  bool operator==(const Function&) const = default;
+  std::string to_string() const {
+    return std::visit([](const auto& f) { return f.to_string(); }, function_);
+  }
+
+ private:
+  std::variant<Polynomial<D>, Expression> function_;
+};
+
+}  // namespace encase
