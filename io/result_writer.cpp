@@ -171,7 +171,7 @@ std::string to_json(const Encasement& e, const Arrangement* arrangement) {
   w.lines(e.input, [&](const NamedCurve& curve) {
     w.raw("{");
     w.field("name", curve.name);
-    w.key("terms"), put_terms(w, curve.polynomial);
+    w.key("terms"), put_terms(w, curve.function.polynomial());
     w.raw("}");
   });
   w.field("delta", e.perturbation);
@@ -181,7 +181,7 @@ std::string to_json(const Encasement& e, const Arrangement* arrangement) {
   w.lines(e.curves, [&](const Curve& curve) {
     w.raw("{");
     w.field("name", curve.name);
-    w.key("terms"), put_terms(w, curve.polynomial);
+    w.key("terms"), put_terms(w, curve.function.polynomial());
     w.field("sources", curve.sources);
     w.raw("}");
   });

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/random_polynomials.hpp"
 #include "encase/geometry.hpp"
 
@@ -51,8 +51,9 @@ inline std::vector<Rational> basis(int degree, const Rational& u, int derivative
 /// The exact polynomial's, in the coordinates of the box.
 struct Exact {
   Polynomial<2> f, x, y, xx, yy, xy;
-  Exact(const FilteredPolynomial<2>& polynomial)
-      : f(Polynomial<2>::constant(1 / Rational(polynomial.scale())) * polynomial.exact()),
+  Exact(const FilteredFunction<2>& polynomial)
+      : f(Polynomial<2>::constant(1 / Rational(polynomial.scale())) *
+          polynomial.polynomial().exact()),
         x(f.derivative(0)),
         y(f.derivative(1)),
         xx(x.derivative(0)),

@@ -340,7 +340,7 @@ class Builder {
   const Recipe& recipe_;
   Encasement e_;
   Kernel kernel_;
-  std::vector<FilteredPolynomial<2>> curves_;
+  std::vector<FilteredFunction<2>> curves_;
   std::vector<Polygon> polygons_;
   Box<2> root_;
 };

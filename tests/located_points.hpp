@@ -68,7 +68,7 @@ inline void expect_right(const Encasement& e, const Arrangement& a,
   std::vector<Sign> signs;
   std::vector<int> zeros;
   for (std::size_t c = 0; c < e.curves.size(); ++c) {
-    signs.push_back(exact_sign(e.curves[c].polynomial, point));
+    signs.push_back(exact_sign(e.curves[c].function.polynomial(), point));
     if (signs.back() == Sign::Zero) zeros.push_back(static_cast<int>(c));
   }
   ASSERT_GE(feature.index, 0);

@@ -456,12 +456,12 @@ class Mutator {
     const std::string where = name("curve", e.curves, c);
     const auto constant = Polynomial<2>::constant(Rational(1, 1000));
     if (coin()) {
-      c.polynomial = c.polynomial + constant;
+      c.function = c.function.polynomial() + constant;
       return Mutation{where + ": constant term"};
     }
     // The input as well: a correct description of another problem, with the same crossings.
-    c.polynomial = c.polynomial + constant;
-    e.input[static_cast<std::size_t>(c.sources[0])].polynomial = c.polynomial;
+    c.function = c.function.polynomial() + constant;
+    e.input[static_cast<std::size_t>(c.sources[0])].function = c.function.polynomial();
     return Mutation{where + ": constant term of the input"};
   }
 

@@ -46,8 +46,8 @@ inline Encasement circle_and_line() {
   e.input = {
       {"circle", polynomial({{{2, 0}, 1}, {{0, 2}, 1}, {{0, 0}, Rational(-1, 2)}})},
       {"line", polynomial({{{0, 1}, 1}, {{1, 0}, Rational(-1, 5)}, {{0, 0}, Rational(-1, 20)}})}};
-  e.curves = {{e.input[0].name, e.input[0].polynomial, {0}},
-              {e.input[1].name, e.input[1].polynomial, {1}}};
+  e.curves = {{e.input[0].name, e.input[0].function.polynomial(), {0}},
+              {e.input[1].name, e.input[1].function.polynomial(), {1}}};
   e.region = square();
   e.region_used = e.region;
   e.lines = {line(0, -1, -1), line(1, 0, -1),      line(0, 1, -1),
@@ -108,7 +108,7 @@ inline Encasement one_branch(Polynomial<2> curve, LineCrossing from, LineCrossin
   Encasement e;
   e.outcome = Outcome::Certified;
   e.input = {{"c0", std::move(curve)}};
-  e.curves = {{e.input[0].name, e.input[0].polynomial, {0}}};
+  e.curves = {{e.input[0].name, e.input[0].function.polynomial(), {0}}};
   e.region = square();
   e.region_used = e.region;
   e.lines = {line(0, -1, -1), line(1, 0, -1), line(0, 1, -1), line(-1, 0, -1)};

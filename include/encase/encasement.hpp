@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "encase/cover.hpp"
+#include "encase/function.hpp"
 #include "encase/geometry.hpp"
 #include "encase/polynomial.hpp"
 #include "encase/region.hpp"
@@ -26,14 +27,14 @@ namespace encase {
 /// What the user wrote.
 struct NamedCurve {
   std::string name;
-  Polynomial<2> polynomial;
+  Function<2> function;
 };
 
-/// A curve that is encased: square-free and without a component in common with the others. A
-/// component shared by several input curves is one curve that carries several sources.
+/// A curve that is encased: a polynomial is square-free and without a component in common with the
+/// others. A component shared by several input curves is one curve that carries several sources.
 struct Curve {
   std::string name;
-  Polynomial<2> polynomial;
+  Function<2> function;
   std::vector<int> sources;  ///< indices of the input curves that contain it
 };
 

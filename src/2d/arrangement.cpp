@@ -10,7 +10,7 @@
 
 #include "2d/arrangement_faces.hpp"
 #include "2d/cell_parts.hpp"
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/segments.hpp"
 
 namespace encase {
@@ -39,7 +39,7 @@ class BoundaryPoints {
 
   Point<2> of(const LineCrossing& crossing) {
     auto& f = polynomials_[crossing.curve];
-    if (!f) f.emplace(e_.curves[crossing.curve].polynomial);
+    if (!f) f.emplace(e_.curves[crossing.curve].function.polynomial());
     const Line& line = e_.lines[crossing.line];
     const auto at = point_on_line(line, Rational(parameter(*f, line, crossing)));
     return {nearest_double(at[0]), nearest_double(at[1])};
@@ -47,7 +47,7 @@ class BoundaryPoints {
 
  private:
   /// The root's parameter rounded to nearest, ties to even.
-  double parameter(const FilteredPolynomial<2>& f, const Line& line, const LineCrossing& crossing) {
+  double parameter(const FilteredFunction<2>& f, const Line& line, const LineCrossing& crossing) {
     RootInterval root{crossing.lo, crossing.hi};
     // Around zero halving would take as long as doubles get smaller.
     if (root.lo < 0 && root.hi > 0 && !narrow_on_line(f, line, 0, &root, kernel_)) return 0;
@@ -63,7 +63,7 @@ class BoundaryPoints {
   }
 
   const Encasement& e_;
-  std::vector<std::optional<FilteredPolynomial<2>>> polynomials_;
+  std::vector<std::optional<FilteredFunction<2>>> polynomials_;
   Kernel kernel_;
 };
 

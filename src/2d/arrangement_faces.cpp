@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 
 namespace encase {
 namespace {
@@ -98,7 +98,7 @@ std::string find_signs(const Encasement& e, const std::vector<std::vector<int>>&
   Kernel kernel;
   std::vector<Sign> signs;
   for (const Curve& curve : e.curves) {
-    const FilteredPolynomial<2> f(curve.polynomial);
+    const FilteredFunction<2> f(curve.function.polynomial());
     signs.push_back(f.sign_at(e.region_used.corners[0], kernel));
     if (signs.back() == Sign::Zero) return "a curve passes through a corner";
   }

@@ -404,7 +404,7 @@ void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& point
 /// The number of roots that a curve seems to have on a chord.
 int CellAtHand::guess_roots_of(int slot, const std::array<Point<2>, 2>& ends) {
   if (const Sketch* f = sketch(slot)) return count_sign_changes(*f, ends[0], ends[1]);
-  TiledPolynomial& f = partition_.tiles().about(whole_.curves[slot].curve, bounds_);
+  TiledFunction& f = partition_.tiles().about(whole_.curves[slot].curve, bounds_);
   return count_sign_changes(f, ends[0], ends[1]);
 }
 

@@ -285,7 +285,7 @@ bool comes_before(const Encasement& encasement, const LineCrossing& crossing,
   if (at >= crossing.hi) return true;
   if (at <= crossing.lo) return false;
   // The one root in the interval lies before the point if the sign has changed.
-  const Polynomial<2>& f = encasement.curves[crossing.curve].polynomial;
+  const Polynomial<2>& f = encasement.curves[crossing.curve].function.polynomial();
   return sgn(f(point)) != sgn(f(point_on_line(line, Rational(crossing.lo))));
 }
 

@@ -8,7 +8,8 @@
 namespace encase {
 
 CellSigns::CellSigns(const Encasement& encasement) : encasement_(encasement) {
-  for (const Curve& curve : encasement.curves) polynomials_.emplace_back(curve.polynomial);
+  for (const Curve& curve : encasement.curves)
+    polynomials_.emplace_back(curve.function.polynomial());
 }
 
 std::vector<int> CellSigns::of(const Cell& cell) {

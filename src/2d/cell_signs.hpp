@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/kernel.hpp"
 #include "encase/encasement.hpp"
 
@@ -24,7 +24,7 @@ class CellSigns {
 
  private:
   const Encasement& encasement_;
-  std::vector<FilteredPolynomial<2>> polynomials_;
+  std::vector<FilteredFunction<2>> polynomials_;
   Kernel kernel_;
 };
 

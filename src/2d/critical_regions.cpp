@@ -34,7 +34,7 @@ std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
   return component;
 }
 
-CriticalRegions critical_regions(TiledPolynomial& f, int curve, const Box<2>& root,
+CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root,
                                  const std::vector<Line>& half_planes,
                                  const SubdivisionLimits& limits, Kernel& kernel) {
   CriticalRegions result;
@@ -94,10 +94,10 @@ CriticalRegions critical_regions(TiledPolynomial& f, int curve, const Box<2>& ro
   return result;
 }
 
-CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, const Box<2>& box,
+CriticalRegions critical_regions(const FilteredFunction<2>& f, int curve, const Box<2>& box,
                                  const std::vector<Line>& half_planes,
                                  const SubdivisionLimits& limits, Kernel& kernel) {
-  TiledPolynomial tiled(f, subdivision_root(box), kernel);
+  TiledFunction tiled(f, subdivision_root(box), kernel);
   return critical_regions(tiled, curve, tiled.box(), half_planes, limits, kernel);
 }
 

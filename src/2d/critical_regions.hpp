@@ -27,10 +27,10 @@ struct CriticalRegions {
 /// Bernstein enclosures in place of its quadratic Taylor bound). The curve has no singular point
 /// outside the unresolved boxes. `curve` is written into the regions. The tiles cover `root`, the
 /// box.
-CriticalRegions critical_regions(TiledPolynomial& f, int curve, const Box<2>& root,
+CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root,
                                  const std::vector<Line>& half_planes,
                                  const SubdivisionLimits& limits, Kernel& kernel);
-CriticalRegions critical_regions(const FilteredPolynomial<2>& f, int curve, const Box<2>& box,
+CriticalRegions critical_regions(const FilteredFunction<2>& f, int curve, const Box<2>& box,
                                  const std::vector<Line>& half_planes,
                                  const SubdivisionLimits& limits, Kernel& kernel);
 

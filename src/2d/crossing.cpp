@@ -228,7 +228,7 @@ std::optional<Error> complaint(const Encasement& encasement, int id) {
 
 const Polynomial<2>& curve_of(const Encasement& encasement, int id, int which) {
   const Crossing& crossing = encasement.crossings[static_cast<std::size_t>(id)];
-  return encasement.curves[static_cast<std::size_t>(crossing.curves[which])].polynomial;
+  return encasement.curves[static_cast<std::size_t>(crossing.curves[which])].function.polynomial();
 }
 
 /// Refines a box that holds exactly one common point of two curves.

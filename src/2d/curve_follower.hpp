@@ -25,7 +25,7 @@ struct CurvePath {
 class CurveFollower {
  public:
   /// `size`: the largest coordinate, in absolute value, in the region. All outlive the follower.
-  CurveFollower(TiledPolynomial& f, Kernel& kernel, double size)
+  CurveFollower(TiledFunction& f, Kernel& kernel, double size)
       : f_(f), prover_(f, kernel), size_(size) {}
 
   /// The path from a point of the curve, in a direction (see CurvePiece), to where it first meets
@@ -47,7 +47,7 @@ class CurveFollower {
   Step step_from(const Point<2>& at, int direction, double length);
   int axis_between(const Point<2>& from, const Point<2>& to);
 
-  TiledPolynomial& f_;
+  TiledFunction& f_;
   PieceProver prover_;
   double size_;
 };

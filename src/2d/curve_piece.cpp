@@ -169,7 +169,7 @@ struct PieceProver::Question {
 /// One attempt with one tile. Its steps fill in `attempt`.
 class PieceProver::Trial {
  public:
-  Trial(const TiledPolynomial& f, const Tile& tile, const Question& question, Attempt* attempt)
+  Trial(const TiledFunction& f, const Tile& tile, const Question& question, Attempt* attempt)
       : f_(f),
         tile_(tile),
         q_(question),
@@ -324,7 +324,7 @@ class PieceProver::Trial {
     attempt_.factor = clamped(0.9 * std::sqrt(q_.goal / distance), 0.1, 3);
   }
 
-  const TiledPolynomial& f_;
+  const TiledFunction& f_;
   const Tile& tile_;
   const Question& q_;
   int u_, v_;

@@ -64,7 +64,7 @@ struct Attempt {
 class PieceProver {
  public:
   /// Both are to outlive the prover.
-  PieceProver(TiledPolynomial& f, Kernel& kernel) : f_(f), kernel_(kernel) {}
+  PieceProver(TiledFunction& f, Kernel& kernel) : f_(f), kernel_(kernel) {}
 
   /// That a chord along `axis` stands for a piece of the curve in a direction, within `goal`.
   /// `free`: the end is only a point near the curve and gets its box here.
@@ -83,7 +83,7 @@ class PieceProver {
   bool own_holds(const Point<2>& point) const;
   bool expand_around(const Question& question, double reach, int bits);
 
-  TiledPolynomial& f_;
+  TiledFunction& f_;
   Kernel& kernel_;
   Tile own_;  ///< where the tiles of f are not precise enough; degree -1 for none
 };

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "2d/curve_follower.hpp"
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "encase/arrangement.hpp"
 #include "encase/encasement.hpp"
 
@@ -43,8 +43,8 @@ class CurveTracer {
   double tolerance_;
   double size_ = 0;
   Kernel kernel_;
-  FilteredPolynomial<2> polynomial_;
-  std::unique_ptr<TiledPolynomial> tiles_;
+  FilteredFunction<2> polynomial_;
+  std::unique_ptr<TiledFunction> tiles_;
   std::unique_ptr<CurveFollower> follower_;
   std::map<int, CurvePoint> ends_;
 };

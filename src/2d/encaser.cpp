@@ -132,13 +132,13 @@ Status Encaser::check_input() const {
   if (!result_.region.plane && result_.region.corners.size() < 3)
     return bad("the region has fewer than three corners");
   for (const NamedCurve& curve : result_.input) {
-    if (curve.polynomial.is_zero())
+    if (curve.function.polynomial().is_zero())
       return bad("curve '" + curve.name + "' is the zero polynomial: every point lies on it");
-    if (curve.polynomial.is_constant())
+    if (curve.function.polynomial().is_constant())
       return bad("curve '" + curve.name + "' is a constant: no point lies on it");
-    if (curve.polynomial.degree() > kMaxDegree)
+    if (curve.function.polynomial().degree() > kMaxDegree)
       return bad("curve '" + curve.name + "' has degree " +
-                 std::to_string(curve.polynomial.degree()) + ", above the limit of " +
+                 std::to_string(curve.function.polynomial().degree()) + ", above the limit of " +
                  std::to_string(kMaxDegree));
   }
   if (!(result_.perturbation >= 0) || !std::isfinite(result_.perturbation))
@@ -151,13 +151,13 @@ void Encaser::separate_components() {
     std::mt19937_64 generator(result_.seed);
     for (std::size_t k = 0; k < result_.input.size(); ++k) {
       // Also for those that are perturbed already: the others get what they would all together.
-      Polynomial<2>& polynomial = result_.input[k].polynomial;
-      Polynomial<2> perturbed = perturb(polynomial, result_.perturbation, generator);
-      if (k >= perturbed_) polynomial = std::move(perturbed);
+      Function<2>& function = result_.input[k].function;
+      Polynomial<2> perturbed = perturb(function.polynomial(), result_.perturbation, generator);
+      if (k >= perturbed_) function = std::move(perturbed);
     }
   }
   std::vector<Polynomial<2>> inputs;
-  for (const NamedCurve& curve : result_.input) inputs.push_back(curve.polynomial);
+  for (const NamedCurve& curve : result_.input) inputs.push_back(curve.function.polynomial());
   std::vector<int> used(inputs.size(), 0);
   for (BaseElement<2>& element : coprime_square_free_base(inputs)) {
     Curve curve;
@@ -186,8 +186,8 @@ void Encaser::separate_components() {
     } else if (++used[element.sources[0].index] > 1) {
       curve.name += " (" + std::to_string(used[element.sources[0].index]) + ")";
     }
-    curve.polynomial = std::move(element.polynomial);
-    polynomials_.emplace_back(curve.polynomial);
+    curve.function = std::move(element.polynomial);
+    polynomials_.emplace_back(curve.function.polynomial());
     result_.curves.push_back(std::move(curve));
   }
 }
@@ -246,7 +246,7 @@ bool Encaser::open_polygon() {
 /// In place of the plane a rectangle outside of which the curves are known, as far as that can be.
 bool Encaser::open_plane() {
   std::vector<Polynomial<2>> curves;
-  for (const Curve& curve : result_.curves) curves.push_back(curve.polynomial);
+  for (const Curve& curve : result_.curves) curves.push_back(curve.function.polynomial());
   Surroundings surroundings = find_surroundings(curves, stop("looking for a rectangle"), kernel_);
   const Rational x(surroundings.half[0]), y(surroundings.half[1]);
   use_region(make_region(-x, x, -y, y).value());
@@ -383,7 +383,7 @@ void Encaser::isolate_crossings() {
     isolate_pairs(pairs);
     result_.shared_cover = std::move(shared.cover);
   } else {
-    for (const TiledPolynomial& f : tiled_) curve_roots_.push_back(f.box());
+    for (const TiledFunction& f : tiled_) curve_roots_.push_back(f.box());
     if (n == 2) isolate_pairs({{{0, 1}, tiled_[0].box(), {}}});
   }
   report_concurrency();

@@ -92,9 +92,9 @@ class Encaser {
   RunClock clock_;
   Kernel kernel_;
   Encasement result_;
-  std::vector<FilteredPolynomial<2>> polynomials_;
+  std::vector<FilteredFunction<2>> polynomials_;
   std::vector<Kernel> tile_kernels_;    // one a curve, so that all threads can have tiles made
-  std::vector<TiledPolynomial> tiled_;  // the same, over the box of region_used
+  std::vector<TiledFunction> tiled_;    // the same, over the box of region_used
   std::vector<Line> sides_;             // of region_used
   Box<2> bounds_;                       // of region_used
   std::vector<Box<2>> curve_roots_;     // of the curves' critical covers; negative widths: none

@@ -24,21 +24,21 @@ class Outside {
  public:
   Outside(const Polynomial<2>& p, const Point<2>& half, int chart)
       : p_(outside_of_rectangle(p, half, chart)), f_(p_) {}
-  const FilteredPolynomial<2>& f() const { return f_; }
-  const FilteredPolynomial<2>& slope() {
+  const FilteredFunction<2>& f() const { return f_; }
+  const FilteredFunction<2>& slope() {
     if (!slope_) slope_.emplace(p_.derivative(1));
     return *slope_;
   }
 
  private:
   Polynomial<2> p_;
-  FilteredPolynomial<2> f_;
-  std::optional<FilteredPolynomial<2>> slope_;
+  FilteredFunction<2> f_;
+  std::optional<FilteredFunction<2>> slope_;
 };
 
 Box<2> box_of(double lo, double hi) { return {{-1, lo}, {1, hi}}; }
 
-bool keeps_sign(const FilteredPolynomial<2>& f, double lo, double hi, Kernel& kernel) {
+bool keeps_sign(const FilteredFunction<2>& f, double lo, double hi, Kernel& kernel) {
   return f.degree() >= 0 && sign_on_box(f, box_of(lo, hi), kernel).has_value();
 }
 

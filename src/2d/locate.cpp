@@ -44,8 +44,8 @@ namespace {
 /// both curves to the line have a common root there. Exact.
 bool on_line(const Encasement& encasement, const Crossing& crossing, const Line& line) {
   const Polynomial<1> common =
-      gcd(restrict_exactly(encasement.curves[crossing.curves[0]].polynomial, line),
-          restrict_exactly(encasement.curves[crossing.curves[1]].polynomial, line));
+      gcd(restrict_exactly(encasement.curves[crossing.curves[0]].function.polynomial(), line),
+          restrict_exactly(encasement.curves[crossing.curves[1]].function.polynomial(), line));
   if (common.is_zero() || common.is_constant()) return false;
   // The part of the line in the box, in its parameter p; the other coordinate is q = u p + v.
   const auto c = line.exact();

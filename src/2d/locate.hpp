@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "encase/encasement.hpp"
 
 /// The region asked and the one used, where they differ.

@@ -36,8 +36,7 @@ Box<2> around(const Point<2>& a, const Point<2>& b) { return hull(Box<2>{a, a}, 
 
 /// Whether f seems to keep its sign from one point to the other, well away from zero: what is
 /// hopeless or hard to prove is not tried.
-bool seems_free(const FilteredPolynomial<2>& f, Sign sign, const Point<2>& from,
-                const Point<2>& to) {
+bool seems_free(const FilteredFunction<2>& f, Sign sign, const Point<2>& from, const Point<2>& to) {
   constexpr int kSamples = 10;
   double least = HUGE_VAL, most = 0;
   for (int i = 0; i <= kSamples; ++i) {
@@ -57,7 +56,7 @@ std::optional<LoopCertificate> certify_no_loop(CellAtHand& at_hand, int critical
   Partition& partition = at_hand.partition();
   const OpenCell& cell = at_hand.cell();
   const CriticalRegion& region = partition.critical_regions[critical_region];
-  const FilteredPolynomial<2>& f = partition.curves()[region.curve];
+  const FilteredFunction<2>& f = partition.curves()[region.curve];
   const Point<2> from = region.boxes.front().center();
   thread_local std::vector<Target> targets;
   targets.clear();
@@ -88,7 +87,7 @@ std::optional<LoopCertificate> certify_no_loop(CellAtHand& at_hand, int critical
       const Point<2> to{target.at[0] + beyond * (target.at[0] - from[0]),
                         target.at[1] + beyond * (target.at[1] - from[1])};
       if (side(line, to, partition.kernel()) == *inside) continue;
-      TiledPolynomial& tiles = partition.tiles().about(region.curve, around(from, to));
+      TiledFunction& tiles = partition.tiles().about(region.curve, around(from, to));
       if (no_root_on_segment(tiles, from, to, partition.kernel()))
         return LoopCertificate{critical_region, from, to};
       break;

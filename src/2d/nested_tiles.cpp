@@ -35,14 +35,14 @@ Box<2> inner_box(const Box<2>& box, const Point<2>& middle) {
 
 }  // namespace
 
-NestedTiles::NestedTiles(const std::vector<FilteredPolynomial<2>>& polynomials,
-                         std::vector<TiledPolynomial>& whole, const Point<2>& middle, bool nested,
+NestedTiles::NestedTiles(const std::vector<FilteredFunction<2>>& polynomials,
+                         std::vector<TiledFunction>& whole, const Point<2>& middle, bool nested,
                          const Kernel& kernel)
     : whole_(whole), inner_(whole.size()) {
   for (std::size_t c = 0; nested && c < whole.size(); ++c) {
-    std::vector<TiledPolynomial>& inner = inner_[c];
+    std::vector<TiledFunction>& inner = inner_[c];
     for (int k = 0; k < kMostNested; ++k) {
-      TiledPolynomial& outer = inner.empty() ? whole[c] : inner.back();
+      TiledFunction& outer = inner.empty() ? whole[c] : inner.back();
       const Box<2> box = inner_box(outer.box(), middle);
       if (!outer.box().contains(box) || !is_blurred(outer.at(middle))) break;
       inner.emplace_back(polynomials[c], box, kernels_.emplace_back(kernel.fresh()));
@@ -57,8 +57,8 @@ void NestedTiles::add_counts_to(Kernel* kernel) {
   }
 }
 
-TiledPolynomial& NestedTiles::about(int polynomial, const Box<2>& part) {
-  std::vector<TiledPolynomial>& inner = inner_[index(polynomial)];
+TiledFunction& NestedTiles::about(int polynomial, const Box<2>& part) {
+  std::vector<TiledFunction>& inner = inner_[index(polynomial)];
   for (auto tiles = inner.rbegin(); tiles != inner.rend(); ++tiles)
     if (tiles->box().contains(part)) return *tiles;
   return whole(polynomial);
@@ -69,7 +69,7 @@ void NestedTiles::append_stops(int polynomial, const Line& line, double from, do
   const auto first = static_cast<std::ptrdiff_t>(stops->size());
   const int p = parameter_axis(line), q = 1 - p;
   const double slope = -line.normal[p] / line.normal[q], base = -line.offset / line.normal[q];
-  for (const TiledPolynomial& tiles : inner_[index(polynomial)]) {
+  for (const TiledFunction& tiles : inner_[index(polynomial)]) {
     // A little inside, so that what lies between the stops is inside.
     const Box<2>& box = tiles.box();
     double lo = box.lo[p], hi = box.hi[p];

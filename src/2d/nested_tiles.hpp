@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/kernel.hpp"
 #include "common/tile.hpp"
 #include "encase/geometry.hpp"
@@ -18,8 +18,8 @@ namespace encase {
 class NestedTiles {
  public:
   /// `whole`: of the same polynomials, over one common box. Inner tiles are made if `nested`.
-  NestedTiles(const std::vector<FilteredPolynomial<2>>& polynomials,
-              std::vector<TiledPolynomial>& whole, const Point<2>& middle, bool nested,
+  NestedTiles(const std::vector<FilteredFunction<2>>& polynomials,
+              std::vector<TiledFunction>& whole, const Point<2>& middle, bool nested,
               const Kernel& kernel);
 
   /// Adds what the making of inner tiles has counted since this was last called.
@@ -27,9 +27,9 @@ class NestedTiles {
 
   int size() const { return static_cast<int>(whole_.size()); }
   const Box<2>& box() const { return whole_.front().box(); }
-  TiledPolynomial& whole(int polynomial) { return whole_[index(polynomial)]; }
+  TiledFunction& whole(int polynomial) { return whole_[index(polynomial)]; }
   /// For what happens in a part of the box: the innermost tiles that cover it.
-  TiledPolynomial& about(int polynomial, const Box<2>& part);
+  TiledFunction& about(int polynomial, const Box<2>& part);
   /// Appends the parameters between `from` and `to` at which a line enters or leaves the boxes of
   /// inner tiles, in ascending order; between two of them it is in the same boxes, about.
   void append_stops(int polynomial, const Line& line, double from, double to,
@@ -38,9 +38,9 @@ class NestedTiles {
  private:
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
-  std::vector<TiledPolynomial>& whole_;
-  std::deque<Kernel> kernels_;                       ///< of inner tiles, one each
-  std::vector<std::vector<TiledPolynomial>> inner_;  ///< of every polynomial, outermost first
+  std::vector<TiledFunction>& whole_;
+  std::deque<Kernel> kernels_;                     ///< of inner tiles, one each
+  std::vector<std::vector<TiledFunction>> inner_;  ///< of every polynomial, outermost first
 };
 
 }  // namespace encase

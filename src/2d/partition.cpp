@@ -12,7 +12,7 @@ constexpr int kMaxRefinements = 80;    // of a root interval before a line is gi
 
 /// Narrows a root's interval until it is disjoint from a vertex's enclosure; false if the curve may
 /// pass through the vertex.
-bool clear_of(TiledPolynomial& f, const Line& line, const Interval& vertex, LineRoot* root,
+bool clear_of(TiledFunction& f, const Line& line, const Interval& vertex, LineRoot* root,
               Kernel& kernel) {
   if (root->hi < vertex.lo || root->lo > vertex.hi) return true;
   // Points a little off the enclosure leave the intervals open towards it.
@@ -24,7 +24,7 @@ bool clear_of(TiledPolynomial& f, const Line& line, const Interval& vertex, Line
 
 }  // namespace
 
-Partition::Partition(const std::vector<FilteredPolynomial<2>>& curves, NestedTiles& tiles,
+Partition::Partition(const std::vector<FilteredFunction<2>>& curves, NestedTiles& tiles,
                      Features& features, Kernel& kernel)
     : crossings(features.crossings),
       critical_regions(features.critical_regions),
@@ -47,7 +47,7 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
       if (a.root.hi == b.root.lo && a.curve == b.curve) continue;
       disjoint = false;
       for (Cut::Root* r : {&a, &b}) {
-        TiledPolynomial& f = tiles_.about(r->curve, box_on_line(line, r->root.lo, r->root.hi));
+        TiledFunction& f = tiles_.about(r->curve, box_on_line(line, r->root.lo, r->root.hi));
         if (!refine_on_line(f, line, &r->root, kernel_)) return false;
       }
     }
@@ -60,7 +60,7 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
 bool Partition::isolate_in_parts(int curve, const Line& line, double from, double to,
                                  int max_nodes) {
   const auto isolate = [&](double lo, double hi) {
-    TiledPolynomial& f = tiles_.about(curve, box_on_line(line, lo, hi));
+    TiledFunction& f = tiles_.about(curve, box_on_line(line, lo, hi));
     return isolate_on_line(f, line, lo, hi, max_nodes, kernel_, &found_);
   };
   stops_.clear();
@@ -83,7 +83,7 @@ bool Partition::isolate_between(int curve, const Line& line, const Interval& fro
                                 const Interval& to, int max_nodes, std::vector<Cut::Root>* roots) {
   found_.clear();
   if (!isolate_in_parts(curve, line, from.lo, to.hi, max_nodes)) return false;
-  TiledPolynomial& f = tiles_.about(curve, box_on_line(line, from.lo, to.hi));
+  TiledFunction& f = tiles_.about(curve, box_on_line(line, from.lo, to.hi));
   for (LineRoot& root : found_) {
     // The vertices must be free of the curve: no root in their enclosures.
     if (!clear_of(f, line, from, &root, kernel_) || !clear_of(f, line, to, &root, kernel_) ||
@@ -220,7 +220,7 @@ std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
   for (int i = cell.begin_of(edge); i < e.end; ++i) {
     LineCrossing& c = line_crossings[cell.word[i]];
     LineRoot root{c.lo, c.hi, spots_[cell.word[i]].parameter};
-    TiledPolynomial& f = tiles_.about(c.curve, box_on_line(line, c.lo, c.hi));
+    TiledFunction& f = tiles_.about(c.curve, box_on_line(line, c.lo, c.hi));
     if (!clear_of(f, line, parameter, &root, kernel_)) return std::nullopt;
     c.lo = root.lo;
     c.hi = root.hi;
@@ -244,7 +244,7 @@ const Partition::Spot& Partition::spot(int line_crossing) {
   return spot;
 }
 
-ValueAndGradient value_and_gradient(TiledPolynomial& f, const Point<2>& at) {
+ValueAndGradient value_and_gradient(TiledFunction& f, const Point<2>& at) {
   const Tile& tile = f.at(at);
   const Point<2> scale{1 / tile.half[0], 1 / tile.half[1]};
   const auto [value, slope_0, slope_1] = value_and_gradient(

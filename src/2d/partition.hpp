@@ -9,7 +9,7 @@
 #include "2d/nested_tiles.hpp"
 #include "2d/places.hpp"
 #include "2d/recycled_memory.hpp"
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/line_roots.hpp"
 #include "common/segments.hpp"
 #include "common/tile.hpp"
@@ -101,8 +101,8 @@ struct Features {
 class Partition {
  public:
   /// `tiles`: the curves' polynomials over a box that contains the polygon to be opened.
-  Partition(const std::vector<FilteredPolynomial<2>>& curves, NestedTiles& tiles,
-            Features& features, Kernel& kernel);
+  Partition(const std::vector<FilteredFunction<2>>& curves, NestedTiles& tiles, Features& features,
+            Kernel& kernel);
 
   std::vector<Line> lines;
   std::vector<LineCrossing> line_crossings;
@@ -113,7 +113,7 @@ class Partition {
   std::vector<Split> history;
   std::int64_t lines_tried = 0;
 
-  const std::vector<FilteredPolynomial<2>>& curves() const { return curves_; }
+  const std::vector<FilteredFunction<2>>& curves() const { return curves_; }
   NestedTiles& tiles() { return tiles_; }
   Kernel& kernel() { return kernel_; }
   OpenCell::Memory* memory() { return &memory_; }
@@ -164,7 +164,7 @@ class Partition {
   void build_child(const OpenCell& cell, const Cut& cut, int first_root, OpenCell* child);
   std::optional<Sign> side_of(const CriticalRegion& region, const Line& line);
 
-  const std::vector<FilteredPolynomial<2>>& curves_;
+  const std::vector<FilteredFunction<2>>& curves_;
   NestedTiles& tiles_;
   Kernel& kernel_;
   RecycledMemory memory_;  ///< of the cells
@@ -178,7 +178,7 @@ struct ValueAndGradient {
   double value;
   Point<2> gradient;
 };
-ValueAndGradient value_and_gradient(TiledPolynomial& f, const Point<2>& at);
+ValueAndGradient value_and_gradient(TiledFunction& f, const Point<2>& at);
 
 /// About the smallest box around the part of a line between two parameters.
 Box<2> box_on_line(const Line& line, double from, double to);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "2d/cell_parts.hpp"
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/segments.hpp"
 #include "encase/arrangement.hpp"
 
@@ -23,12 +23,12 @@ Feature face(int index) { return {Feature::Kind::Face, index}; }
 RationalPoint<2> exact(const Point<2>& point) { return {Rational(point[0]), Rational(point[1])}; }
 const RationalPoint<2>& exact(const RationalPoint<2>& point) { return point; }
 
-Sign sign_at(const FilteredPolynomial<2>& f, const Point<2>& point, Kernel& kernel) {
+Sign sign_at(const FilteredFunction<2>& f, const Point<2>& point, Kernel& kernel) {
   const auto v = f.evaluate(point, Kernel::kDoubleBits);
   if (std::fabs(v.value) > v.error) return v.value > 0 ? Sign::Positive : Sign::Negative;
   return f.sign_at(exact(point), kernel);
 }
-Sign sign_at(const FilteredPolynomial<2>& f, const RationalPoint<2>& point, Kernel& kernel) {
+Sign sign_at(const FilteredFunction<2>& f, const RationalPoint<2>& point, Kernel& kernel) {
   return f.sign_at(point, kernel);
 }
 
@@ -65,7 +65,7 @@ int index_of(Sign sign) { return sign == Sign::Positive ? 1 : 0; }
 struct PointLocator::Tables {
   const Encasement* encasement;
   int outside;
-  std::vector<FilteredPolynomial<2>> curves;
+  std::vector<FilteredFunction<2>> curves;
   std::vector<CellTable> cells;
   std::vector<int> vertex_at_corner;
   std::map<int, int> vertex_at_line_crossing;
@@ -85,7 +85,7 @@ PointLocator::PointLocator(const Encasement& e, const Arrangement& a) {
   auto tables = std::make_unique<Tables>();
   tables->encasement = &e;
   tables->outside = a.outside;
-  for (const Curve& curve : e.curves) tables->curves.emplace_back(curve.polynomial);
+  for (const Curve& curve : e.curves) tables->curves.emplace_back(curve.function.polynomial());
 
   tables->cells.resize(e.cells.size());
   for (std::size_t k = 0; k < e.cells.size(); ++k)

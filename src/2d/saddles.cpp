@@ -58,7 +58,7 @@ Step advance(const Jet& jet, Search* search) {
 
 }  // namespace
 
-void append_saddles(TiledPolynomial& f, int curve, const std::vector<Box<2>>& boxes,
+void append_saddles(TiledFunction& f, int curve, const std::vector<Box<2>>& boxes,
                     std::vector<Saddle>* saddles) {
   const auto first = static_cast<std::ptrdiff_t>(saddles->size());
   std::vector<Search> searches;

@@ -93,7 +93,7 @@ bool SharedSubdivision::provide_patch(const Box<2>& box, int level, Alive* alive
   const auto coarse = [&] { return !(alive->patch.radius <= 0x1p-4 * alive->patch.magnitude()); };
   const bool known = alive->expanded_at >= 0;
   if (known && (alive->expanded_at + 2 > level || !coarse())) return !coarse();
-  TiledPolynomial& f = curves_.about(alive->curve, box);
+  TiledFunction& f = curves_.about(alive->curve, box);
   const Tile& tile = f.at(box.center());
   for (int axis = 0; axis < 2; ++axis)
     if (0.5 * box.width(axis) > 1.01 * tile.half[axis]) return false;

@@ -382,7 +382,7 @@ void SplittingLines::propose_refinement() {
   if (longest.a < 0) return;
   const Point<2> a = points[longest.a].at, b = points[longest.b].at, middle_point = halfway(a, b);
   const Point<2> along = unit(minus(b, a)), across{-along[1], along[0]};
-  TiledPolynomial& f = partition_.tiles().about(points[longest.a].curve, cell_.bounds());
+  TiledFunction& f = partition_.tiles().about(points[longest.a].curve, cell_.bounds());
   const double length = std::sqrt(longest.gap);
   const auto at = [&](double t) {
     return Point<2>{middle_point[0] + t * across[0], middle_point[1] + t * across[1]};

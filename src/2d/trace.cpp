@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "2d/curve_tracer.hpp"
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 
 namespace encase {
 namespace {
@@ -165,7 +165,7 @@ std::vector<Polyline> sketch_curve(const Encasement& encasement, int cell, int c
     }
     return true;
   };
-  const FilteredPolynomial<2> f(encasement.curves[curve].polynomial);
+  const FilteredFunction<2> f(encasement.curves[curve].function.polynomial());
   std::vector<double> values;
   for (int j = 0; j <= steps[1]; ++j)
     for (int i = 0; i <= steps[0]; ++i) values.push_back(f.approximate(at(i, j)));

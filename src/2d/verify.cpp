@@ -94,12 +94,12 @@ void check_input_structure(Claims& claims) {
   claims.require(finite(e.perturbation) && e.perturbation >= 0,
                  "The perturbation is not a number.");
   for (std::size_t i = 0; i < e.input.size(); ++i)
-    claims.require(is_curve(e.input[i].polynomial), "Input curve ", i,
+    claims.require(is_curve(e.input[i].function.polynomial()), "Input curve ", i,
                    " is not a polynomial of degree 1 to ", kMaxDegree, ".");
   for (std::size_t i = 0; i < e.curves.size(); ++i) {
     const Curve& curve = e.curves[i];
-    claims.require(is_curve(curve.polynomial), "Curve ", i, " is not a polynomial of degree 1 to ",
-                   kMaxDegree, ".");
+    claims.require(is_curve(curve.function.polynomial()), "Curve ", i,
+                   " is not a polynomial of degree 1 to ", kMaxDegree, ".");
     bool sources = !curve.sources.empty() && ascending(curve.sources);
     for (int s : curve.sources) sources = sources && in_range(s, e.input);
     claims.require(sources, "Curve ", i, " does not name ascending indices of input curves.");
@@ -284,7 +284,8 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options) 
   // Index errors and the like first, so that everything below may follow indices freely.
   if (!check_structure(claims)) return claims.report;
   claims.curves.reserve(encasement.curves.size());
-  for (const Curve& curve : encasement.curves) claims.curves.emplace_back(curve.polynomial);
+  for (const Curve& curve : encasement.curves)
+    claims.curves.emplace_back(curve.function.polynomial());
 
   // The cheap statements that everything refers to.
   check_outcome(claims);

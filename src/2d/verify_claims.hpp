@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/interval.hpp"
 #include "common/kernel.hpp"
 #include "encase/verify.hpp"
@@ -27,7 +27,7 @@ inline void append(std::string& text, std::size_t part) { text += std::to_string
 struct Facts {
   const Encasement& result;
   VerifyOptions options;
-  std::vector<FilteredPolynomial<2>> curves{};
+  std::vector<FilteredFunction<2>> curves{};
   std::vector<Box<2>> shared_leaves{};  ///< of the shared cover, as in its lists of curves
   /// For every split token of the shared cover the token at which its upper half begins; empty if
   /// there is no proper one.
@@ -65,7 +65,7 @@ struct Claims {
 
   Facts& facts;
   const Encasement& result;
-  std::vector<FilteredPolynomial<2>>& curves;
+  std::vector<FilteredFunction<2>>& curves;
   std::vector<Box<2>>& shared_leaves;
   std::vector<std::size_t>& upper_half;
   int max_objections;

@@ -124,9 +124,10 @@ bool rounding_is_proved(Claims& claims, const Crossing& crossing) {
     from[1 - i] = crossing.box.lo[1 - i];
     to[1 - i] = crossing.box.hi[1 - i];
     const auto& curves = claims.result.curves;
-    if (!common_zero_on_segment(curves[static_cast<std::size_t>(crossing.curves[0])].polynomial,
-                                curves[static_cast<std::size_t>(crossing.curves[1])].polynomial,
-                                from, to, crossing.box))
+    if (!common_zero_on_segment(
+            curves[static_cast<std::size_t>(crossing.curves[0])].function.polynomial(),
+            curves[static_cast<std::size_t>(crossing.curves[1])].function.polynomial(), from, to,
+            crossing.box))
       return false;
   }
   return true;
@@ -161,9 +162,10 @@ bool location_is_proved(const Encasement& e, const Crossing& crossing) {
   if (inside || outside) return false;
   // The box holds one common zero: one on a side is that one.
   for (std::size_t k = 0; k < n; ++k)
-    if (common_zero_on_segment(e.curves[static_cast<std::size_t>(crossing.curves[0])].polynomial,
-                               e.curves[static_cast<std::size_t>(crossing.curves[1])].polynomial,
-                               e.region.corners[k], e.region.corners[(k + 1) % n], crossing.box))
+    if (common_zero_on_segment(
+            e.curves[static_cast<std::size_t>(crossing.curves[0])].function.polynomial(),
+            e.curves[static_cast<std::size_t>(crossing.curves[1])].function.polynomial(),
+            e.region.corners[k], e.region.corners[(k + 1) % n], crossing.box))
       return true;
   return false;
 }

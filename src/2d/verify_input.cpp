@@ -29,8 +29,8 @@ bool one_to_one(const Encasement& e) {
   std::set<int> inputs;
   for (const Curve& curve : e.curves) {
     if (curve.sources.size() != 1 || !inputs.insert(curve.sources[0]).second) return false;
-    if (!proportional(curve.polynomial,
-                      e.input[static_cast<std::size_t>(curve.sources[0])].polynomial))
+    if (!proportional(curve.function.polynomial(),
+                      e.input[static_cast<std::size_t>(curve.sources[0])].function.polynomial()))
       return false;
   }
   return inputs.size() == e.input.size();
@@ -43,8 +43,8 @@ void check_factors(Claims& claims, std::set<int>* repeated) {
   const bool generic = one_to_one(e);
   std::vector<Polynomial<2>> polynomials;
   if (!generic)
-    for (const NamedCurve& input : e.input) polynomials.push_back(input.polynomial);
-  for (const Curve& curve : e.curves) polynomials.push_back(curve.polynomial);
+    for (const NamedCurve& input : e.input) polynomials.push_back(input.function.polynomial());
+  for (const Curve& curve : e.curves) polynomials.push_back(curve.function.polynomial());
   const int first_curve = generic ? 0 : n;
 
   for (const auto& element : coprime_square_free_base(polynomials)) {
@@ -178,9 +178,9 @@ void check_infinity(Claims& claims) {
     return;
   }
   for (int chart = 0; chart < 2; ++chart) {
-    std::vector<FilteredPolynomial<2>> curves, slopes;
+    std::vector<FilteredFunction<2>> curves, slopes;
     for (const Curve& curve : e.curves) {
-      const Polynomial<2> f = outside_of_rectangle(curve.polynomial, half, chart);
+      const Polynomial<2> f = outside_of_rectangle(curve.function.polynomial(), half, chart);
       curves.emplace_back(f);
       slopes.emplace_back(f.derivative(1));
     }

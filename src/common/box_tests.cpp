@@ -270,7 +270,7 @@ bool no_relevant_critical_point(const Bernstein<2>& net, Effort effort) {
 }
 
 template <int D>
-std::optional<Sign> sign_on_box(const FilteredPolynomial<D>& f, const Box<D>& box, Kernel& kernel) {
+std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box, Kernel& kernel) {
   Bernstein<D> net;
   std::optional<Sign> sign;
   climb(
@@ -351,7 +351,7 @@ bool exactly_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
       [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
 }
 
-bool no_relevant_critical_point(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel) {
+bool no_relevant_critical_point(const FilteredFunction<2>& f, const Box<2>& box, Kernel& kernel) {
   Bernstein<2> net;
   return climb(
       kernel,
@@ -363,12 +363,12 @@ bool no_relevant_critical_point(const FilteredPolynomial<2>& f, const Box<2>& bo
       [&] { return coarse(net); });
 }
 
-#define ENCASE_INSTANTIATE(D)                                                                     \
-  template bool excluded<D>(const SystemNets<D>&);                                                \
-  template std::optional<Contraction<D>> contraction<D>(const SystemNets<D>&, double);            \
-  template std::optional<Sign> sign_on_box(const FilteredPolynomial<D>&, const Box<D>&, Kernel&); \
-  template bool no_common_zero<D>(const System<D>&, const Box<D>&, Kernel&);                      \
-  template bool at_most_one_zero<D>(const System<D>&, const Box<D>&, Kernel&);                    \
+#define ENCASE_INSTANTIATE(D)                                                                   \
+  template bool excluded<D>(const SystemNets<D>&);                                              \
+  template std::optional<Contraction<D>> contraction<D>(const SystemNets<D>&, double);          \
+  template std::optional<Sign> sign_on_box(const FilteredFunction<D>&, const Box<D>&, Kernel&); \
+  template bool no_common_zero<D>(const System<D>&, const Box<D>&, Kernel&);                    \
+  template bool at_most_one_zero<D>(const System<D>&, const Box<D>&, Kernel&);                  \
   template bool exactly_one_zero<D>(const System<D>&, const Box<D>&, Kernel&);
 ENCASE_INSTANTIATE(1)
 ENCASE_INSTANTIATE(2)

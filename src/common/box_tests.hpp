@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "encase/geometry.hpp"
 
 /// What a single box can prove: the statements that certificates are made of. The search asks them
@@ -54,11 +54,11 @@ bool no_relevant_critical_point(const Bernstein<2>& net, Effort effort);
 
 /// D polynomials in D variables.
 template <int D>
-using System = std::array<const FilteredPolynomial<D>*, D>;
+using System = std::array<const FilteredFunction<D>*, D>;
 
 /// The sign f is proved to have on the whole closed box.
 template <int D>
-std::optional<Sign> sign_on_box(const FilteredPolynomial<D>& f, const Box<D>& box, Kernel& kernel);
+std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box, Kernel& kernel);
 
 /// The system has no common zero in the closed box.
 template <int D>
@@ -73,6 +73,6 @@ template <int D>
 bool exactly_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel);
 
 /// As on nets, with effort.
-bool no_relevant_critical_point(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel);
+bool no_relevant_critical_point(const FilteredFunction<2>& f, const Box<2>& box, Kernel& kernel);
 
 }  // namespace encase

@@ -30,7 +30,7 @@ bool narrow(const Box<2>& box) {
 /// The common zeros of two polynomials that have been found, and how: from boxes of a subdivision.
 class PlaneRoots {
  public:
-  PlaneRoots(TiledPolynomial& f, TiledPolynomial& g, Kernel& kernel)
+  PlaneRoots(TiledFunction& f, TiledFunction& g, Kernel& kernel)
       : system_{&f, &g}, kernel_(kernel) {}
 
   std::vector<Box<2>> roots;
@@ -78,7 +78,7 @@ class PlaneRoots {
                                      const Point<2>& x,
                                      const std::array<double, 2>& residual) const;
 
-  std::array<TiledPolynomial*, 2> system_;
+  std::array<TiledFunction*, 2> system_;
   Kernel& kernel_;
   std::array<Tile, 2> around_tiles_;
   std::array<CubicSource, 2> sources_;
@@ -445,7 +445,7 @@ std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box
 
 }  // namespace
 
-RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g, const Box<2>& root,
+RootIsolation<2> isolate_roots(TiledFunction& f, TiledFunction& g, const Box<2>& root,
                                const std::vector<Line>& half_planes,
                                const SubdivisionLimits& limits, Kernel& kernel) {
   RootIsolation<2> result;
@@ -473,7 +473,7 @@ RootIsolation<2> isolate_roots<2>(const System<2>& system, const Box<2>& box,
                                   const std::vector<Line>& half_planes,
                                   const SubdivisionLimits& limits, Kernel& kernel) {
   const Box<2> root = subdivision_root(box);
-  TiledPolynomial f(*system[0], root, kernel), g(*system[1], root, kernel);
+  TiledFunction f(*system[0], root, kernel), g(*system[1], root, kernel);
   return isolate_roots(f, g, root, half_planes, limits, kernel);
 }
 

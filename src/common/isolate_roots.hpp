@@ -43,7 +43,7 @@ RootIsolation<2> isolate_roots<2>(const System<2>& system, const Box<2>& box,
                                   const SubdivisionLimits& limits, Kernel& kernel);
 
 /// The same in the plane, for polynomials with tiles that cover `root`, which is subdivided.
-RootIsolation<2> isolate_roots(TiledPolynomial& f, TiledPolynomial& g, const Box<2>& root,
+RootIsolation<2> isolate_roots(TiledFunction& f, TiledFunction& g, const Box<2>& root,
                                const std::vector<Line>& half_planes,
                                const SubdivisionLimits& limits, Kernel& kernel);
 

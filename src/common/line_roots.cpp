@@ -133,7 +133,7 @@ double largest_difference(const LineNet& net, int degree) {
 /// Looks for the roots on a path. Where it is not given a list for them it fails at the first.
 class PathSearch {
  public:
-  PathSearch(TiledPolynomial& f, const Path& path, int max_nodes, Kernel& kernel,
+  PathSearch(TiledFunction& f, const Path& path, int max_nodes, Kernel& kernel,
              std::vector<LineRoot>* roots)
       : f_(f), path_(path), kernel_(kernel), roots_(roots), nodes_left_(max_nodes) {}
 
@@ -464,7 +464,7 @@ class PathSearch {
     return box;
   }
 
-  TiledPolynomial& f_;
+  TiledFunction& f_;
   const Path& path_;
   Kernel& kernel_;
   std::vector<LineRoot>* roots_;
@@ -479,7 +479,7 @@ bool finite_interval(double lo, double hi) {
 
 }  // namespace
 
-bool isolate_on_line(TiledPolynomial& f, const Line& line, double lo, double hi, int max_nodes,
+bool isolate_on_line(TiledFunction& f, const Line& line, double lo, double hi, int max_nodes,
                      Kernel& kernel, std::vector<LineRoot>* roots) {
   if (!finite_interval(lo, hi)) return false;
   const std::size_t before = roots->size();
@@ -489,14 +489,14 @@ bool isolate_on_line(TiledPolynomial& f, const Line& line, double lo, double hi,
   return false;
 }
 
-bool no_root_on_line(TiledPolynomial& f, const Line& line, double lo, double hi, Kernel& kernel) {
+bool no_root_on_line(TiledFunction& f, const Line& line, double lo, double hi, Kernel& kernel) {
   if (lo == hi) return sign_on_line(f, line, lo, kernel) != Sign::Zero;
   if (!finite_interval(lo, hi)) return false;
   const Path path(line, std::max(std::fabs(lo), std::fabs(hi)));
   return PathSearch(f, path, kMaxNodesWithoutRoot, kernel, nullptr).run(lo, hi);
 }
 
-bool no_root_on_segment(TiledPolynomial& f, const Point<2>& from, const Point<2>& to,
+bool no_root_on_segment(TiledFunction& f, const Point<2>& from, const Point<2>& to,
                         Kernel& kernel) {
   for (int i = 0; i < 2; ++i)
     if (!std::isfinite(from[i]) || !std::isfinite(to[i])) return false;
@@ -512,7 +512,7 @@ struct Value {
 };
 
 /// The value of f on a line, from its tile.
-Value value_on_line(TiledPolynomial& f, const Line& line, double parameter) {
+Value value_on_line(TiledFunction& f, const Line& line, double parameter) {
   const Path path(line, std::fabs(parameter));
   const Point<2> point = path.at(parameter);
   const Tile& tile = f.at(point);
@@ -533,7 +533,7 @@ Value value_on_line(TiledPolynomial& f, const Line& line, double parameter) {
 
 }  // namespace
 
-Sign sign_on_line(TiledPolynomial& f, const Line& line, double parameter, Kernel& kernel) {
+Sign sign_on_line(TiledFunction& f, const Line& line, double parameter, Kernel& kernel) {
   if (kernel.start_bits <= Kernel::kDoubleBits) {
     const Value v = value_on_line(f, line, parameter);
     if (std::fabs(v.value) > v.error) {
@@ -544,8 +544,7 @@ Sign sign_on_line(TiledPolynomial& f, const Line& line, double parameter, Kernel
   return sign_on_line(f.polynomial(), line, parameter, kernel);
 }
 
-bool narrow_on_line(TiledPolynomial& f, const Line& line, double at, LineRoot* root,
-                    Kernel& kernel) {
+bool narrow_on_line(TiledFunction& f, const Line& line, double at, LineRoot* root, Kernel& kernel) {
   if (!(root->lo < at && at < root->hi)) return true;
   const Sign here = sign_on_line(f, line, at, kernel);
   if (here == Sign::Zero) return false;
@@ -554,7 +553,7 @@ bool narrow_on_line(TiledPolynomial& f, const Line& line, double at, LineRoot* r
   return true;
 }
 
-bool refine_on_line(TiledPolynomial& f, const Line& line, LineRoot* root, Kernel& kernel) {
+bool refine_on_line(TiledFunction& f, const Line& line, LineRoot* root, Kernel& kernel) {
   const double width = root->hi - root->lo;
   const double middle = root->lo + 0.5 * width;
   if (!(root->lo < middle && middle < root->hi)) return false;

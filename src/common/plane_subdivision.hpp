@@ -90,7 +90,7 @@ class PlaneSubdivision {
     bool excluded = false;
   };
 
-  PlaneSubdivision(const std::array<TiledPolynomial*, N>& polynomials, const Box<2>& root,
+  PlaneSubdivision(const std::array<TiledFunction*, N>& polynomials, const Box<2>& root,
                    const std::vector<Line>& half_planes, const SubdivisionLimits& limits,
                    Kernel& kernel)
       : polynomials_(polynomials),
@@ -138,7 +138,7 @@ class PlaneSubdivision {
   const Tile* local_tile(const Node& node, int i, int bits);
   void settle(int token, const Node& node);
 
-  std::array<TiledPolynomial*, N> polynomials_;
+  std::array<TiledFunction*, N> polynomials_;
   Box<2> root_;
   const std::vector<Line>& half_planes_;
   const SubdivisionLimits& limits_;

@@ -70,7 +70,7 @@ bool wants_precision(const Bernstein<1>& net) {
 /// Computes the net anew, first in doubles, then in MPFR, until `settled(net)` or more precision
 /// does not help any more.
 template <class Settled>
-bool sharpen(const FilteredPolynomial<2>& f, const Line& line, Piece* piece, Kernel& kernel,
+bool sharpen(const FilteredFunction<2>& f, const Line& line, Piece* piece, Kernel& kernel,
              Settled settled) {
   int bits = piece->bits == 0 ? kernel.start_bits : kernel.next(std::max(piece->bits, 53));
   while (bits > 0) {
@@ -107,7 +107,7 @@ bool exact_middle(double lo, double hi, double* middle) {
 
 }  // namespace
 
-std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomial<2>& f,
+std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredFunction<2>& f,
                                                          const Line& line, double lo, double hi,
                                                          int max_nodes, Kernel& kernel) {
   if (!(lo < hi) || !std::isfinite(lo) || !std::isfinite(hi)) return std::nullopt;
@@ -200,8 +200,8 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomia
 namespace {
 
 /// The value of f at the line's point with a parameter, in doubles, with a proved error.
-typename FilteredPolynomial<2>::Value value_on_line(const FilteredPolynomial<2>& f,
-                                                    const Line& line, double parameter) {
+typename FilteredFunction<2>::Value value_on_line(const FilteredFunction<2>& f, const Line& line,
+                                                  double parameter) {
   const int p = parameter_axis(line), q = 1 - p;
   Point<2> at, reach;
   at[p] = parameter;
@@ -214,7 +214,7 @@ typename FilteredPolynomial<2>::Value value_on_line(const FilteredPolynomial<2>&
 
 }  // namespace
 
-bool narrow_on_line(const FilteredPolynomial<2>& f, const Line& line, double at, RootInterval* root,
+bool narrow_on_line(const FilteredFunction<2>& f, const Line& line, double at, RootInterval* root,
                     Kernel& kernel) {
   if (!(root->lo < at && at < root->hi)) return true;
   const Sign here = sign_on_line(f, line, at, kernel);
@@ -223,7 +223,7 @@ bool narrow_on_line(const FilteredPolynomial<2>& f, const Line& line, double at,
   return true;
 }
 
-Sign sign_on_line(const FilteredPolynomial<2>& f, const Line& line, double parameter,
+Sign sign_on_line(const FilteredFunction<2>& f, const Line& line, double parameter,
                   Kernel& kernel) {
   if (kernel.start_bits <= Kernel::kDoubleBits) {
     const auto v = value_on_line(f, line, parameter);
@@ -235,7 +235,7 @@ Sign sign_on_line(const FilteredPolynomial<2>& f, const Line& line, double param
   return f.sign_at(point_on_line(line, Rational(parameter)), kernel);
 }
 
-bool refine_on_line(const FilteredPolynomial<2>& f, const Line& line, RootInterval* root,
+bool refine_on_line(const FilteredFunction<2>& f, const Line& line, RootInterval* root,
                     Kernel& kernel) {
   const double width = root->hi - root->lo;
   const double middle = root->lo + 0.5 * width;
@@ -274,7 +274,7 @@ namespace {
 
 /// f has at most one root, a simple one, on the part of the line: one variation on an interval that
 /// contains it, or a derivative without zero.
-bool at_most_one_root(const FilteredPolynomial<2>& f, const Line& line, double lo, double hi,
+bool at_most_one_root(const FilteredFunction<2>& f, const Line& line, double lo, double hi,
                       Kernel& kernel) {
   Piece piece;
   piece.lo = lo;
@@ -292,7 +292,7 @@ bool at_most_one_root(const FilteredPolynomial<2>& f, const Line& line, double l
 
 }  // namespace
 
-bool one_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo, double hi,
+bool one_root_on_line(const FilteredFunction<2>& f, const Line& line, double lo, double hi,
                       Kernel& kernel) {
   if (!(lo < hi) || !std::isfinite(lo) || !std::isfinite(hi)) return false;
   // Opposite signs at the ends: at least one root.
@@ -321,7 +321,7 @@ namespace {
 /// f has no zero on the chart of a part of a segment; `chart(lo, hi)` for lo, hi in [-1, 1] or in
 /// the line's parameter. `same_sign(lo, hi)`: f is proved to have one sign, not zero, at both.
 template <class Chart, class SameSign>
-bool no_root(const FilteredPolynomial<2>& f, double lo, double hi, Kernel& kernel, Chart chart,
+bool no_root(const FilteredFunction<2>& f, double lo, double hi, Kernel& kernel, Chart chart,
              SameSign same_sign) {
   Bernstein<1> derivative;
   std::vector<Piece> stack(1);
@@ -371,7 +371,7 @@ bool no_root(const FilteredPolynomial<2>& f, double lo, double hi, Kernel& kerne
 
 }  // namespace
 
-bool no_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo, double hi,
+bool no_root_on_line(const FilteredFunction<2>& f, const Line& line, double lo, double hi,
                      Kernel& kernel) {
   if (!std::isfinite(lo) || !std::isfinite(hi) || !(lo <= hi)) return false;
   if (lo == hi) return sign_on_line(f, line, lo, kernel) != Sign::Zero;
@@ -383,7 +383,7 @@ bool no_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo
       });
 }
 
-bool no_root_on_segment(const FilteredPolynomial<2>& f, const Point<2>& from, const Point<2>& to,
+bool no_root_on_segment(const FilteredFunction<2>& f, const Point<2>& from, const Point<2>& to,
                         Kernel& kernel) {
   for (int i = 0; i < 2; ++i)
     if (!std::isfinite(from[i]) || !std::isfinite(to[i])) return false;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/interval.hpp"
 #include "common/kernel.hpp"
 #include "encase/geometry.hpp"
@@ -21,36 +21,35 @@ struct RootInterval {
 /// All roots of f on the line's parameter interval [lo, hi], in increasing order, in disjoint
 /// intervals within [lo, hi]; all proved simple. Nothing if that cannot be proved (a multiple root,
 /// a root at lo or hi, f zero on the line, or more than max_nodes subdivisions).
-std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredPolynomial<2>& f,
+std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredFunction<2>& f,
                                                          const Line& line, double lo, double hi,
                                                          int max_nodes, Kernel& kernel);
 
 /// f has exactly one root, simple, in the parameter interval (lo, hi) of the line and is not zero
 /// at its ends.
-bool one_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo, double hi,
+bool one_root_on_line(const FilteredFunction<2>& f, const Line& line, double lo, double hi,
                       Kernel& kernel);
 
 /// f has no zero on the closed parameter interval [lo, hi] of the line.
-bool no_root_on_line(const FilteredPolynomial<2>& f, const Line& line, double lo, double hi,
+bool no_root_on_line(const FilteredFunction<2>& f, const Line& line, double lo, double hi,
                      Kernel& kernel);
 
 /// f has no zero on the closed segment between two points.
-bool no_root_on_segment(const FilteredPolynomial<2>& f, const Point<2>& from, const Point<2>& to,
+bool no_root_on_segment(const FilteredFunction<2>& f, const Point<2>& from, const Point<2>& to,
                         Kernel& kernel);
 
 /// Halves a root's interval at least once (more where that is cheap); false if doubles leave no
 /// room or the sign at the new end cannot be proved.
-bool refine_on_line(const FilteredPolynomial<2>& f, const Line& line, RootInterval* root,
+bool refine_on_line(const FilteredFunction<2>& f, const Line& line, RootInterval* root,
                     Kernel& kernel);
 
 /// Cuts a root's interval at a parameter, so that the root is proved to lie before or beyond it;
 /// false if f is zero there.
-bool narrow_on_line(const FilteredPolynomial<2>& f, const Line& line, double at, RootInterval* root,
+bool narrow_on_line(const FilteredFunction<2>& f, const Line& line, double at, RootInterval* root,
                     Kernel& kernel);
 
 /// The exact sign of f at the point of the line with the given parameter.
-Sign sign_on_line(const FilteredPolynomial<2>& f, const Line& line, double parameter,
-                  Kernel& kernel);
+Sign sign_on_line(const FilteredFunction<2>& f, const Line& line, double parameter, Kernel& kernel);
 
 /// The point of a line at a parameter: enclosed in doubles, and exactly.
 std::array<Interval, 2> point_on_line(const Line& line, const Interval& parameter);

@@ -179,7 +179,7 @@ constexpr double kFarthest = 2.5;  // from a tile's centre, for its halves, that
 
 }  // namespace
 
-bool make_sketch(TiledPolynomial& f, const Box<2>& box, Sketch* sketch) {
+bool make_sketch(TiledFunction& f, const Box<2>& box, Sketch* sketch) {
   const Point<2> center = box.center();
   const Tile& tile = f.at(center);
   Point<2> origin, half;

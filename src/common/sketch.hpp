@@ -26,7 +26,7 @@ struct Sketch {
 };
 
 /// False if the polynomial is not known well enough there.
-bool make_sketch(TiledPolynomial& f, const Box<2>& box, Sketch* sketch);
+bool make_sketch(TiledFunction& f, const Box<2>& box, Sketch* sketch);
 
 /// How often f changes sign between neighbours among 16 points spread over the inside of a segment:
 /// nearly always the number of its roots there, and never more but for errors.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/interval.hpp"
 #include "encase/cover.hpp"
 #include "encase/geometry.hpp"
@@ -107,7 +107,7 @@ struct SubdivisionLimits {
 /// part of it is expanded anew around its box, in doubles, then in MPFR. All nets of a box share
 /// their coordinates; these are the box's own, or those of `expand` on it.
 template <int D, int N, class Visit>
-Subdivision<D> subdivide(const std::array<const FilteredPolynomial<D>*, N>& polynomials,
+Subdivision<D> subdivide(const std::array<const FilteredFunction<D>*, N>& polynomials,
                          const Box<D>& root, const std::vector<Hyperplane<D>>& half_spaces,
                          const SubdivisionLimits& limits, Kernel& kernel, Visit visit) {
   struct Item {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/interval.hpp"
 #include "common/kernel.hpp"
 #include "common/paired_coefficients.hpp"
@@ -20,7 +20,7 @@ namespace encase {
 ///
 /// What the search asks about f inside the rectangle it asks its tile: the coefficients are those
 /// of an expansion around the centre, so that rounding errors are small beside the values there,
-/// and there are few of them whatever the degree of f. f is scaled as in FilteredPolynomial.
+/// and there are few of them whatever the degree of f. f is scaled as in FilteredFunction.
 struct Tile {
   static constexpr int kMaxDegree = 15;
   static constexpr int kRow = kMaxDegree + 1;
@@ -39,7 +39,7 @@ struct Tile {
   double error = 0;  ///< |e| on the rectangle
   double slope_error = 0;  ///< |de/ds_k| on the rectangle
   double bend_error = 0;   ///< the second derivatives of e on the rectangle
-  double value_error = 0;  ///< of TiledPolynomial::value on the rectangle
+  double value_error = 0;  ///< of TiledFunction::value on the rectangle
   /// For what is lost where the polynomial of the tile is replaced, on a part of the rectangle, by
   /// its interpolant of degree 7 in either variable (common/patch.hpp): entry k bounds the sums of
   /// the absolute values of the terms with s_0^(8+k), and with s_1^(8+k), around any point.
@@ -60,14 +60,14 @@ CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, 
 /// A polynomial with tiles that cover a box: one where its degree is low or the box is small, else
 /// a quadtree of them, four of which are made when one is first asked for. May be asked by several
 /// threads; a tile, and how often the kernel counts, does not depend on who asks when.
-class TiledPolynomial {
+class TiledFunction {
  public:
   /// `kernel` is used while a tile is made; nothing else may use it at the same time.
-  TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel);
-  TiledPolynomial(TiledPolynomial&&) noexcept;
-  ~TiledPolynomial();
+  TiledFunction(const FilteredFunction<2>& f, const Box<2>& box, Kernel& kernel);
+  TiledFunction(TiledFunction&&) noexcept;
+  ~TiledFunction();
 
-  const FilteredPolynomial<2>& polynomial() const { return *f_; }
+  const FilteredFunction<2>& polynomial() const { return *f_; }
   const Box<2>& box() const { return root_; }
 
   /// The tile whose rectangle holds the point (one of them on borders; the nearest for a point
@@ -106,7 +106,7 @@ class TiledPolynomial {
   /// What arithmetic with sums of two doubles loses within reach: docs/error-bounds.md.
   double precise_error(const Point<2>& reach) const;
 
-  const FilteredPolynomial<2>* f_;
+  const FilteredFunction<2>* f_;
   Kernel* kernel_;
   Box<2> root_;
   std::unique_ptr<Workspace> workspace_;

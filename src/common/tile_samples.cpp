@@ -83,7 +83,7 @@ constexpr double kReach = 2;  // a tile is good enough for a look a little beyon
 
 }  // namespace
 
-int count_sign_changes(TiledPolynomial& f, const Point<2>& from, const Point<2>& to) {
+int count_sign_changes(TiledFunction& f, const Point<2>& from, const Point<2>& to) {
   const Point<2> step{(to[0] - from[0]) / kSamples, (to[1] - from[1]) / kSamples};
   const Point<2> first{from[0] + 0.5 * step[0], from[1] + 0.5 * step[1]};
   std::uint32_t positive = 0;

@@ -12,7 +12,7 @@ namespace encase {
 
 /// How often f changes sign between neighbours among 16 points spread over the inside of a segment:
 /// nearly always the number of its roots there, and never more but for rounding.
-int count_sign_changes(TiledPolynomial& f, const Point<2>& from, const Point<2>& to);
+int count_sign_changes(TiledFunction& f, const Point<2>& from, const Point<2>& to);
 
 /// The values, gradients and second derivatives at up to eight points, in the tile's coordinates.
 struct alignas(64) TileJets {

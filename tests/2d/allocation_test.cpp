@@ -76,19 +76,19 @@ struct Pair {
   explicit Pair(int degree, std::uint64_t seed = 1)
       : curves(random(degree, seed)), f(curves[0], box, kernel), g(curves[1], box, kernel) {}
 
-  static std::vector<FilteredPolynomial<2>> random(int degree, std::uint64_t seed) {
+  static std::vector<FilteredFunction<2>> random(int degree, std::uint64_t seed) {
     RandomOptions options;
     options.degree = degree;
     options.seed = seed;
-    std::vector<FilteredPolynomial<2>> result;
+    std::vector<FilteredFunction<2>> result;
     for (const Polynomial<2>& p : random_polynomials<2>(options)) result.emplace_back(p);
     return result;
   }
 
   Kernel kernel;
   Box<2> box = subdivision_root<2>({{-1, -1}, {1, 1}});
-  std::vector<FilteredPolynomial<2>> curves;
-  TiledPolynomial f, g;
+  std::vector<FilteredFunction<2>> curves;
+  TiledFunction f, g;
 };
 
 /// Constants are made when they are first asked for; those are not to be counted.

@@ -389,7 +389,7 @@ TEST(Arrangement, RoundsTheEndsOfCurvesOnTheBoundary) {
     const LineCrossing& c = e.line_crossings[v.index];
     const Line& line = e.lines[c.line];
     const int axis = parameter_axis(line);
-    const Polynomial<2>& f = e.curves[c.curve].polynomial;
+    const Polynomial<2>& f = e.curves[c.curve].function.polynomial();
     EXPECT_GE(v.point[axis], c.lo);
     EXPECT_LE(v.point[axis], c.hi);
     // The root lies between the points halfway to the neighbours.

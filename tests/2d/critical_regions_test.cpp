@@ -16,13 +16,13 @@ namespace {
 const Box<2> kSquare{{-1, -1}, {1, 1}};
 
 struct Found {
-  FilteredPolynomial<2> f;
+  FilteredFunction<2> f;
   CriticalRegions regions;
 };
 
 Found find(const Polynomial<2>& exact, const Box<2>& box = kSquare,
            const std::vector<Line>& half_planes = {}) {
-  Found found{FilteredPolynomial<2>(exact), {}};
+  Found found{FilteredFunction<2>(exact), {}};
   Kernel kernel;
   found.regions = critical_regions(found.f, 3, box, half_planes, SubdivisionLimits{}, kernel);
   return found;
@@ -163,7 +163,7 @@ TEST(CriticalRegions, RandomCurvesAreCovered) {
 }
 
 TEST(CriticalRegions, LimitOnBoxesLeavesUnresolvedLeaves) {
-  const FilteredPolynomial<2> f(written::polynomial<2>("x^2 + y^2 - 1/10"));
+  const FilteredFunction<2> f(written::polynomial<2>("x^2 + y^2 - 1/10"));
   SubdivisionLimits limits;
   limits.max_boxes = 3;
   Kernel kernel;

@@ -146,7 +146,7 @@ TEST(EncaseDegenerate, PerturbationMakesACuspCertified) {
     encased::expect_certified(e);
     EXPECT_EQ(e.perturbation, 1e-8);
     EXPECT_EQ(e.seed, seed);
-    EXPECT_NE(e.input[0].polynomial, written::polynomial<2>("y^2 - x^3"));
+    EXPECT_NE(e.input[0].function.polynomial(), written::polynomial<2>("y^2 - x^3"));
   }
 }
 

@@ -105,7 +105,8 @@ TEST_P(RandomPair, IsCertified) {
     if (degree > 5) continue;
     // No crossing is missing: each is one of the roots of the resultant, and with those outside
     // they are all of them.
-    const auto in_x = resultant(e.input[0].polynomial, e.input[1].polynomial, 1);
+    const auto in_x =
+        resultant(e.input[0].function.polynomial(), e.input[1].function.polynomial(), 1);
     for (const Crossing& c : e.crossings)
       EXPECT_EQ(count_real_roots(in_x, Rational(c.box.lo[0]), Rational(c.box.hi[0])), 1);
     EXPECT_LE(static_cast<int>(e.crossings.size()), count_real_roots(in_x, -1, 1));

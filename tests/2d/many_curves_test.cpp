@@ -94,14 +94,14 @@ Line line_of(double a, double b, double c) {
 class NestedTilesOf : public testing::Test {
  protected:
   NestedTiles make(const NamedCurve& curve, const Box<2>& box, bool nested = true) {
-    polynomials.emplace_back(curve.polynomial);
+    polynomials.emplace_back(curve.function.polynomial());
     whole.emplace_back(polynomials[0], box, kernel);
     return {polynomials, whole, {0, 0}, nested, kernel};
   }
 
   Kernel kernel;
-  std::vector<FilteredPolynomial<2>> polynomials;
-  std::vector<TiledPolynomial> whole;
+  std::vector<FilteredFunction<2>> polynomials;
+  std::vector<TiledFunction> whole;
 };
 
 TEST_F(NestedTilesOf, WideBoxesHaveTilesOfTheirOwnAroundTheMiddle) {
@@ -109,7 +109,7 @@ TEST_F(NestedTilesOf, WideBoxesHaveTilesOfTheirOwnAroundTheMiddle) {
   NestedTiles tiles = make(dense_curves(5, 1, 50)[0], wide);
   EXPECT_EQ(tiles.about(0, wide).box(), wide);
   const Box<2> part{{-1, -1}, {1, 0.5}};
-  TiledPolynomial& inner = tiles.about(0, part);
+  TiledFunction& inner = tiles.about(0, part);
   EXPECT_TRUE(inner.box().contains(part));
   EXPECT_LT(inner.box().largest_width(), 100);
   // What is lost of values near the middle.

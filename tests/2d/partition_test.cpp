@@ -55,12 +55,12 @@ TEST(Partition, ParameterGrowsCounterClockwiseAroundASquare) {
 
 TEST(Partition, DoesNotOpenWhereACurvePassesThroughACorner) {
   Kernel kernel;
-  std::vector<FilteredPolynomial<2>> curves;
+  std::vector<FilteredFunction<2>> curves;
   curves.emplace_back(Polynomial<2>::variable(0) - Polynomial<2>::variable(1));
   const Region square = make_region(-1, 1, -1, 1).value();
   std::vector<Line> sides;
   for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
-  std::vector<TiledPolynomial> tiles;
+  std::vector<TiledFunction> tiles;
   for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
   NestedTiles nested(curves, tiles, {0, 0}, false, kernel);
   Features features;
@@ -80,12 +80,12 @@ TEST(Partition, DoesNotOpenWhereACurvePassesThroughACorner) {
 
 TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
   Kernel kernel;
-  std::vector<FilteredPolynomial<2>> curves;
+  std::vector<FilteredFunction<2>> curves;
   curves.emplace_back(Polynomial<2>::variable(0) - Polynomial<2>::constant(Rational(1, 3)));
   const Region square = make_region(-1, 1, -1, 1).value();
   std::vector<Line> sides;
   for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
-  std::vector<TiledPolynomial> tiles;
+  std::vector<TiledFunction> tiles;
   for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
   NestedTiles nested(curves, tiles, {0, 0}, false, kernel);
   Features features;
@@ -121,12 +121,12 @@ TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
 
 TEST(Partition, JoinsWhatAPartMadeOfAHalf) {
   Kernel kernel;
-  std::vector<FilteredPolynomial<2>> curves;
+  std::vector<FilteredFunction<2>> curves;
   curves.emplace_back(Polynomial<2>::variable(0) - Polynomial<2>::constant(Rational(1, 3)));
   const Region square = make_region(-1, 1, -1, 1).value();
   std::vector<Line> sides;
   for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
-  std::vector<TiledPolynomial> tiles;
+  std::vector<TiledFunction> tiles;
   for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
   NestedTiles nested(curves, tiles, {0, 0}, false, kernel);
   Features features;

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/random_polynomials.hpp"
 #include "common/segments.hpp"
 #include "encase/arrangement.hpp"
@@ -90,7 +90,7 @@ TEST(PointLocator, AgreesWithSignsOfUpToTwelveCurves) {
       // Exactly on curves, and on their edges.
       std::vector<RationalPoint<2>> points;
       for (int k = 0; k < count; ++k) {
-        const Polynomial<2>& f = scene.curves[k].polynomial;
+        const Polynomial<2>& f = scene.curves[k].function.polynomial();
         points.push_back(scene.on_curve[k]);
         if (f.degree() > 2) continue;
         for (const auto& p : more_points(f, scene.on_curve[k], random)) points.push_back(p);
@@ -175,8 +175,8 @@ TEST(PointLocator, FindsOneFaceAlongASegmentWithoutCurves) {
   const Encasement e = encased::run_curves(random_curves(many));
   const Arrangement a = arranged(e);
   const PointLocator locator(e, a);
-  std::vector<FilteredPolynomial<2>> curves;
-  for (const Curve& curve : e.curves) curves.emplace_back(curve.polynomial);
+  std::vector<FilteredFunction<2>> curves;
+  for (const Curve& curve : e.curves) curves.emplace_back(curve.function.polynomial());
   Kernel kernel;
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> place(-1, 1), step(-0.3, 0.3);

@@ -137,7 +137,7 @@ TEST(SharedCover, ComponentsOfManyCurvesAreTakenApart) {
   auto curves = curves_of(random_circles(30, 50, 150, 4));
   EXPECT_EQ(encased::run_curves(curves).outcome, Outcome::Certified);
   const auto line = Polynomial<2>::variable(0) - Polynomial<2>::constant(Rational(1, 7));
-  curves.push_back({"more", curves[3].polynomial * line * line});
+  curves.push_back({"more", curves[3].function.polynomial() * line * line});
   const Encasement e = encased::run_curves(curves);
   EXPECT_EQ(e.curves.size(), 31u);
   ASSERT_EQ(e.degenerate.size(), 2u);
@@ -166,7 +166,8 @@ TEST(SharedCover, HoldsWhereABudgetRanOut) {
 
 /// The common zeros inside the region of two curves, isolated over the whole of it.
 RootIsolation<2> whole_region(const Encasement& e, const Pair& pair, Kernel& kernel) {
-  const FilteredPolynomial<2> f(e.curves[pair[0]].polynomial), g(e.curves[pair[1]].polynomial);
+  const FilteredFunction<2> f(e.curves[pair[0]].function.polynomial()),
+      g(e.curves[pair[1]].function.polynomial());
   const std::vector<Line> sides(e.lines.begin(), e.lines.begin() + e.region_used.side_count());
   return isolate_roots<2>({&f, &g}, e.region_used.bounding_box(), sides, SubdivisionLimits{},
                           kernel);

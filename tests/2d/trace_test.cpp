@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "tests/sample_encasements.hpp"
 
 namespace encase {
@@ -32,7 +32,7 @@ double distance(const Point<2>& p, const Polyline& line) {
 
 /// The largest |f| / |grad f| over the points: how far they are from the curve.
 double residual(const Polynomial<2>& polynomial, const Polyline& line) {
-  const FilteredPolynomial<2> f(polynomial);
+  const FilteredFunction<2> f(polynomial);
   double largest = 0;
   for (const Point<2>& p : line) {
     const Point<2> g = f.gradient(p);
@@ -49,7 +49,7 @@ TEST(TraceBranch, RunsFromTheFirstCrossingToTheSecondWithinTheTolerance) {
   EXPECT_NEAR(line.front()[0], 0.0625, 1e-15);
   EXPECT_NEAR(line.front()[1], -std::sqrt(0.5 - 0.0625 * 0.0625), tolerance);
   EXPECT_NEAR(line.back()[1], std::sqrt(0.5 - 0.0625 * 0.0625), tolerance);
-  EXPECT_LE(residual(e.curves[0].polynomial, line), tolerance / 50);
+  EXPECT_LE(residual(e.curves[0].function.polynomial(), line), tolerance / 50);
   for (const Point<2>& p : line) EXPECT_LE(p[0], 0.0625 + 1e-12);
   // The left part of the circle, all of it: its points lie close to the polyline.
   for (double angle = 1.7; angle < 4.58; angle += 0.001)
@@ -67,7 +67,7 @@ TEST(TraceBranch, FollowsABranchThatItsBisectorCrossesThreeTimes) {
                          {3, 0, -1, -0.8}, {1, 0, 0.8, 1});
   const double tolerance = 1e-3;
   const Polyline line = trace_branch(e, 0, e.cells[0].branches[0], tolerance);
-  EXPECT_LE(residual(e.curves[0].polynomial, line), tolerance / 50);
+  EXPECT_LE(residual(e.curves[0].function.polynomial(), line), tolerance / 50);
   for (std::size_t k = 1; k < line.size(); ++k) ASSERT_LT(line[k - 1][1], line[k][1]);
   for (double y = line.front()[1]; y < line.back()[1]; y += 1e-3)
     ASSERT_LE(distance({4 * y * y * y - 2 * y, y}, line), 1.5 * tolerance) << y;

@@ -69,14 +69,14 @@ RationalPoint<2> on_chord(const Point<2>& a, const Point<2>& b, int axis, double
 
 /// The curve meets the line across the chord, there, once within the distance: exact signs on both
 /// sides, and the number of roots between them.
-void expect_once_beside(const FilteredPolynomial<2>& f, const Point<2>& a, const Point<2>& b,
+void expect_once_beside(const FilteredFunction<2>& f, const Point<2>& a, const Point<2>& b,
                         int axis, double within, double part) {
   const int v = 1 - axis;
   const RationalPoint<2> at = on_chord(a, b, axis, part);
   RationalPoint<2> low = at, high = at;
   low[v] -= Rational(within);
   high[v] += Rational(within);
-  EXPECT_EQ(sgn(f.exact()(low)) * sgn(f.exact()(high)), -1);
+  EXPECT_EQ(sgn(f.polynomial().exact()(low)) * sgn(f.polynomial().exact()(high)), -1);
   if (within < 1e-13) return;
   Line line;
   line.normal[axis] = 1;
@@ -97,7 +97,7 @@ void expect_pieces(const Encasement& e, const Arrangement& a, const Tracing& tra
     for (std::size_t i = 0; i < edge.points.size(); ++i)
       EXPECT_TRUE(edge.boxes[i].contains(edge.points[i]));
     if (a.edges[k].curve < 0) continue;
-    const FilteredPolynomial<2> f(e.curves[a.edges[k].curve].polynomial);
+    const FilteredFunction<2> f(e.curves[a.edges[k].curve].function.polynomial());
     const std::size_t step = std::max<std::size_t>(1, edge.pieces.size() / 40);
     for (std::size_t i = 0; i < edge.pieces.size(); ++i) {
       const auto& [axis, bound] = edge.pieces[i];
@@ -116,7 +116,7 @@ void expect_covers(const Encasement& e, const Arrangement& a, const Tracing& tra
   const Box<2> box = e.region_used.bounding_box();
   Kernel kernel;
   for (int curve = 0; curve < static_cast<int>(e.curves.size()); ++curve) {
-    const FilteredPolynomial<2> f(e.curves[curve].polynomial);
+    const FilteredFunction<2> f(e.curves[curve].function.polynomial());
     for (int axis = 0; axis < 2; ++axis)
       for (int k = 1; k < 40; ++k) {
         Line line;
@@ -419,8 +419,8 @@ TEST(Neighbours, ShareAnEdge) {
 /// The distance proved for the chord from (-1, 0) to (1, 0).
 double proved_distance(const std::string& text) {
   Kernel kernel;
-  const FilteredPolynomial<2> f(written::polynomial<2>(text));
-  TiledPolynomial tiles(f, {{-2, -2}, {2, 2}}, kernel);
+  const FilteredFunction<2> f(written::polynomial<2>(text));
+  TiledFunction tiles(f, {{-2, -2}, {2, 2}}, kernel);
   const CurvePoint p{{-1, 0}, {{-1, 0}, {-1, 0}}}, q{{1, 0}, {{1, 0}, {1, 0}}};
   const Attempt attempt = PieceProver(tiles, kernel).prove(p, q, false, 0, 1, 1);
   EXPECT_TRUE(attempt.proved);
@@ -449,8 +449,8 @@ TEST(PieceProver, ProvesNothingThatIsFalse) {
        {"x^2 + y^2 - 1/2", "y^2 - x^3 - 1/1000", "(y - x^2)*(y - x^2 - 1/100) - 1/100000",
         "(x^2 + y^2)^2 - x^2 + y^2 - 1/1000", "x^5 - 3*x^3*y + y^5 - x/9 + 1/30"}) {
     Kernel kernel;
-    const FilteredPolynomial<2> f(written::polynomial<2>(text));
-    TiledPolynomial tiles(f, {{-1.1, -1.1}, {1.1, 1.1}}, kernel);
+    const FilteredFunction<2> f(written::polynomial<2>(text));
+    TiledFunction tiles(f, {{-1.1, -1.1}, {1.1, 1.1}}, kernel);
     PieceProver prover(tiles, kernel);
     std::vector<CurvePoint> points;
     for (int n = 0; n < 60; ++n) {
@@ -490,7 +490,7 @@ TEST(PieceProver, ProvesNothingThatIsFalse) {
             const bool grows = p.point[axis] < q.point[axis];
             const Rational side(attempt.piece.distance * 1.01 + 1e-15);
             left[1 - axis] += (axis == 0) == grows ? side : Rational(-side);
-            EXPECT_EQ(sgn(f.exact()(left)), direction);
+            EXPECT_EQ(sgn(f.polynomial().exact()(left)), direction);
             EXPECT_TRUE(attempt.tube.may_meet(p.box));
             EXPECT_TRUE(attempt.tube.may_meet(q.box));
           }

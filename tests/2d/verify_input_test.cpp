@@ -12,41 +12,41 @@ TEST(VerifyInput, ObjectsToOtherCurves) {
   const Encasement e = circle_and_line();
   const auto nudged = linear(Rational(-1, 5), 1, Rational(-1, 20) + Rational(1, 1000000000));
   expect_objection(
-      e, [&](auto& m) { m.curves[1].polynomial = nudged; }, "input curve 1");
+      e, [&](auto& m) { m.curves[1].function = nudged; }, "input curve 1");
   expect_objection(
-      e, [&](auto& m) { m.input[1].polynomial = nudged; }, "input curve 1");
+      e, [&](auto& m) { m.input[1].function = nudged; }, "input curve 1");
   const auto moved = linear(Rational(-1, 5), 1, Rational(-1, 10));
   expect_objection(
-      e, [&](auto& m) { m.curves[1].polynomial = m.input[1].polynomial = moved; }, "Line crossing");
+      e, [&](auto& m) { m.curves[1].function = m.input[1].function = moved; }, "Line crossing");
   expect_objection(
-      e, [](auto& m) { std::swap(m.curves[0].polynomial, m.curves[1].polynomial); },
+      e, [](auto& m) { std::swap(m.curves[0].function, m.curves[1].function); },
       "components that its sources say");
   expect_objection(
       e, [](auto& m) { m.input.pop_back(); }, "does not name ascending");
   expect_objection(
-      e, [](auto& m) { m.curves[1].polynomial = {}; }, "degree 1 to");
+      e, [](auto& m) { m.curves[1].function = {}; }, "degree 1 to");
   expect_objection(
-      e, [](auto& m) { m.curves[1].polynomial = Polynomial<2>::constant(3); }, "degree 1 to");
+      e, [](auto& m) { m.curves[1].function = Polynomial<2>::constant(3); }, "degree 1 to");
   expect_objection(
       e,
       [](auto& m) {
-        m.input[0].polynomial = m.curves[0].polynomial = Polynomial<2>::variable(0).power(61);
+        m.input[0].function = m.curves[0].function = Polynomial<2>::variable(0).power(61);
       },
       "degree 1 to");
   expect_objection(
       e, [](auto& m) { m.curves[1].sources = {0}; }, "");
   // A constant factor is no other curve.
   Encasement scaled = e;
-  scaled.input[1].polynomial =
-      scaled.input[1].polynomial * Polynomial<2>::constant(Rational(-7, 3));
+  scaled.input[1].function =
+      scaled.input[1].function.polynomial() * Polynomial<2>::constant(Rational(-7, 3));
   expect_accepted(scaled);
 }
 
 TEST(VerifyInput, TracksSharedAndRepeatedComponents) {
   // Input circle^2 line and line, encased as circle and line.
   Encasement e = circle_and_line();
-  const auto c = e.curves[0].polynomial, l = e.curves[1].polynomial;
-  e.input[0].polynomial = c * c * l;
+  const auto c = e.curves[0].function.polynomial(), l = e.curves[1].function.polynomial();
+  e.input[0].function = c * c * l;
   e.curves[1].sources = {0, 1};
   e.outcome = Outcome::Degenerate;
   Unresolved repeated, shared;
@@ -70,17 +70,17 @@ TEST(VerifyInput, TracksSharedAndRepeatedComponents) {
       },
       "a repeated component that is not there");
   expect_objection(
-      e, [&](auto& m) { m.input[0].polynomial = c * l; }, "a repeated component that is not there");
+      e, [&](auto& m) { m.input[0].function = c * l; }, "a repeated component that is not there");
   expect_objection(
-      e, [&](auto& m) { m.input[0].polynomial = c * c; }, "components that its sources say");
+      e, [&](auto& m) { m.input[0].function = c * c; }, "components that its sources say");
   expect_objection(
-      e, [&](auto& m) { m.input[0].polynomial = c * c * l * linear(1, 1, 9); }, "is in no curve");
+      e, [&](auto& m) { m.input[0].function = c * c * l * linear(1, 1, 9); }, "is in no curve");
   expect_objection(
       e, [](auto& m) { m.curves[1].sources = {1}; }, "components that its sources say");
   expect_objection(
-      e, [&](auto& m) { m.curves[0].polynomial = c * c; }, "has a repeated component");
+      e, [&](auto& m) { m.curves[0].function = c * c; }, "has a repeated component");
   expect_objection(
-      e, [&](auto& m) { m.curves[0].polynomial = c * l; }, "share a component");
+      e, [&](auto& m) { m.curves[0].function = c * l; }, "share a component");
 }
 
 }  // namespace

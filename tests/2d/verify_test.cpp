@@ -225,7 +225,7 @@ TEST(Verify, ObjectsToListsThatAreNotWellFormed) {
   expect_objection(
       e, [](auto& m) { m.perturbation = -1; }, "perturbation");
   expect_objection(
-      e, [](auto& m) { m.input[0].polynomial = {}; }, "Input curve 0");
+      e, [](auto& m) { m.input[0].function = {}; }, "Input curve 0");
   expect_objection(
       e, [](auto& m) { m.region.corners.resize(2); }, "region is not a polygon");
   expect_objection(

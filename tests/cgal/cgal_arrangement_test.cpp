@@ -46,7 +46,7 @@ TEST_P(CgalArrangements, HaveTheSameCrossingsAndFaces) {
   EXPECT_EQ(check(arrangement.value()), "");
 
   std::vector<Polynomial<2>> polynomials;
-  for (const NamedCurve& curve : curves) polynomials.push_back(curve.polynomial);
+  for (const NamedCurve& curve : curves) polynomials.push_back(curve.function.polynomial());
   const CgalArrangement theirs = cgal_arrangement(polynomials);
   EXPECT_EQ(static_cast<int>(encased.value().crossings.size()), theirs.crossings);
   // One face is all that lies beyond the rectangle; the arcs to infinity only prolong the others.

@@ -179,7 +179,7 @@ void expect_match_in(const std::vector<NamedCurve>& curves, const CgalRoots& roo
 
 TEST_P(CgalMatch, WhenTheRegionIsASquareTriangleOrHexagon) {
   const auto curves = random_pair(GetParam(), -1, 1);
-  const CgalRoots roots(curves[0].polynomial, curves[1].polynomial);
+  const CgalRoots roots(curves[0].function.polynomial(), curves[1].function.polynomial());
   {
     SCOPED_TRACE("square");
     expect_match_in(curves, roots, make_region(-1, 1, -1, 1).value());
@@ -201,7 +201,7 @@ TEST_P(CgalMatchInThePlane, HasAllRoots) {
   ASSERT_TRUE(result.ok()) << result.error().message;
   EXPECT_EQ(result.value().outcome, Outcome::Certified);
   expect_verified(result.value());
-  const CgalRoots roots(curves[0].polynomial, curves[1].polynomial);
+  const CgalRoots roots(curves[0].function.polynomial(), curves[1].function.polynomial());
   EXPECT_EQ(static_cast<int>(result.value().crossings.size()), roots.size());
   expect_roots_match(result.value(), 0, 1, roots);
 }
@@ -209,7 +209,7 @@ TEST_P(CgalMatchInThePlane, HasAllRoots) {
 TEST_P(CgalMatch, WhenTheRegionIsSmall) {
   const Rational lo(-1, 10), hi(1, 10);
   const auto curves = random_pair(GetParam(), lo, hi);
-  const CgalRoots roots(curves[0].polynomial, curves[1].polynomial);
+  const CgalRoots roots(curves[0].function.polynomial(), curves[1].function.polynomial());
   expect_match_in(curves, roots, make_region(lo, hi, lo, hi).value());
 }
 
@@ -254,9 +254,9 @@ TEST_P(CgalMatchOfFile, HoldsForEveryPair) {
   const int n = static_cast<int>(encasement.curves.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
-      expect_roots_match(
-          encasement, i, j,
-          CgalRoots(encasement.curves[i].polynomial, encasement.curves[j].polynomial));
+      expect_roots_match(encasement, i, j,
+                         CgalRoots(encasement.curves[i].function.polynomial(),
+                                   encasement.curves[j].function.polynomial()));
   expect_verified(encasement);
 }
 

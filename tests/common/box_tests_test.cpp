@@ -15,8 +15,8 @@ namespace {
 using written::polynomial;
 
 template <int D>
-FilteredPolynomial<D> filtered(const std::string& text) {
-  return FilteredPolynomial<D>(polynomial<D>(text));
+FilteredFunction<D> filtered(const std::string& text) {
+  return FilteredFunction<D>(polynomial<D>(text));
 }
 
 const Box<2> kSquare{{-1, -1}, {1, 1}};
@@ -133,7 +133,7 @@ TEST(ExactlyOneZero, BoxesWithoutADoubleCentreAreNotTrustedTooFar) {
 /// common zeros are exactly known.
 struct Grid {
   std::vector<Rational> a, b;
-  FilteredPolynomial<2> f, g;
+  FilteredFunction<2> f, g;
 
   static Polynomial<2> product(const Polynomial<2>& form, const std::vector<Rational>& values) {
     Polynomial<2> result = Polynomial<2>::constant(1);

@@ -83,13 +83,13 @@ class CubicsOfDegree : public testing::TestWithParam<int> {};
 TEST_P(CubicsOfDegree, AreAsCloseAsTheySay) {
   const int degree = GetParam();
   Random random(static_cast<std::uint64_t>(degree));
-  const FilteredPolynomial<2> f(random_polynomial(degree, random)),
+  const FilteredFunction<2> f(random_polynomial(degree, random)),
       g(random_polynomial(std::max(0, degree - 1), random));
   const Exact exact_f(f), exact_g(g);
   const std::array<const Exact*, 2> exact{&exact_f, &exact_g};
   Kernel kernel;
   const Box<2> root{{-1, -1}, {1, 1}};
-  TiledPolynomial of_f(f, root, kernel), of_g(g, root, kernel);
+  TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
   double needed = 0;
   for (int round = 0; round < 4; ++round) {
     Box<2> base = random_box(round % 4, random);
@@ -154,12 +154,12 @@ TEST_P(CubicsOfDegree, SignsAreTheirs) {
   Random random(static_cast<std::uint64_t>(degree) + 30);
   int of_sources = 0, of_halves = 0;
   for (int round = 0; round < 10; ++round) {
-    const FilteredPolynomial<2> f(random_polynomial(degree, random)),
+    const FilteredFunction<2> f(random_polynomial(degree, random)),
         g(random_polynomial(degree, random));
     const Exact exact[2] = {Exact(f), Exact(g)};
     Kernel kernel;
     const Box<2> root{{-1, -1}, {1, 1}};
-    TiledPolynomial of_f(f, root, kernel), of_g(g, root, kernel);
+    TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
     const Box<2> box = random_box(2 + round % 3, random);
     Tile tile_f, tile_g;
     of_f.expand(box, 53, &tile_f);
@@ -203,11 +203,11 @@ INSTANTIATE_TEST_SUITE_P(Degrees, CubicsOfDegree,
                          [](const auto& test) { return std::to_string(test.param); });
 
 TEST(CubicSystem, OfTilesThatClaimNothingProvesNothing) {
-  const FilteredPolynomial<2> f(written::polynomial<2>("x^3 + y^3 + 1")),
+  const FilteredFunction<2> f(written::polynomial<2>("x^3 + y^3 + 1")),
       g(written::polynomial<2>("x^3 - y^2 + 2"));
   Kernel kernel;
   const Box<2> box{{-1e300, -1e300}, {1e300, 1e300}};
-  TiledPolynomial of_f(f, box, kernel), of_g(g, box, kernel);
+  TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
   Tile tile_f, tile_g;
   of_f.expand(box, 53, &tile_f);
   of_g.expand(box, 53, &tile_g);
@@ -222,11 +222,11 @@ TEST(CubicSystem, OfTilesThatClaimNothingProvesNothing) {
 }
 
 TEST(CubicSystem, VariationIsAlongTheAxes) {
-  const FilteredPolynomial<2> f(written::polynomial<2>("x + 3 y")),
+  const FilteredFunction<2> f(written::polynomial<2>("x + 3 y")),
       g(written::polynomial<2>("x/2 + y"));
   Kernel kernel;
   const Box<2> box{{-1, -1}, {1, 1}};
-  TiledPolynomial of_f(f, box, kernel), of_g(g, box, kernel);
+  TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
   CubicSystem system = on_box(of_f.at({0, 0}), of_g.at({0, 0}), box), upper;
   for (const double part : {1.0, 0.5}) {
     const auto v = relative_variation(system);
@@ -247,10 +247,10 @@ TEST_P(SystemOfDegree, VerdictsDoNotContradictAKnownZero) {
   for (int round = 0; round < 40; ++round) {
     const RationalPoint<2> zero{Rational(symmetric_random(random)) / 3,
                                 Rational(symmetric_random(random)) / 3};
-    const FilteredPolynomial<2> f(through(zero, degree, random)), g(through(zero, degree, random));
+    const FilteredFunction<2> f(through(zero, degree, random)), g(through(zero, degree, random));
     Kernel kernel;
     const Box<2> root{{-1, -1}, {1, 1}};
-    TiledPolynomial of_f(f, root, kernel), of_g(g, root, kernel);
+    TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
     // Boxes with the zero at a corner, on a side, or inside (the double next to it).
     for (int level = 1; level < 40; level += 3) {
       const double width = std::ldexp(1.0, -level);
@@ -295,11 +295,11 @@ TEST_P(SystemOfDegree, ContractionsBoundTheJacobian) {
   int contractions = 0;
   for (int round = 0; round < 12; ++round) {
     const RationalPoint<2> zero{Rational(1, 7), Rational(-1, 5)};
-    const FilteredPolynomial<2> f(through(zero, degree, random)), g(through(zero, degree, random));
+    const FilteredFunction<2> f(through(zero, degree, random)), g(through(zero, degree, random));
     const Exact exact_f(f), exact_g(g);
     Kernel kernel;
     const Box<2> root{{-1, -1}, {1, 1}};
-    TiledPolynomial of_f(f, root, kernel), of_g(g, root, kernel);
+    TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
     for (int level = 3; level < 12; level += 2) {
       Box<2> box;
       for (int i = 0; i < 2; ++i) {

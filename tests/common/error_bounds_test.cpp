@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/box_tests.hpp"
-#include "common/filtered_polynomial.hpp"
+#include "common/filtered_function.hpp"
 #include "common/interval.hpp"
 #include "common/segments.hpp"
 
@@ -33,11 +33,11 @@ Rational power_of_two(int e) {
   return r;
 }
 
-/// What FilteredPolynomial scales by, found from a value that is far from zero.
+/// What FilteredFunction scales by, found from a value that is far from zero.
 template <int D>
-Rational scale_of(const FilteredPolynomial<D>& f) {
+Rational scale_of(const FilteredFunction<D>& f) {
   int e = std::numeric_limits<int>::min();
-  for (const auto& term : f.exact().terms())
+  for (const auto& term : f.polynomial().exact().terms())
     e = std::max(e, static_cast<int>(mpz_sizeinbase(term.coefficient.get_num_mpz_t(), 2)) -
                         static_cast<int>(mpz_sizeinbase(term.coefficient.get_den_mpz_t(), 2)));
   return power_of_two(-e);
@@ -214,7 +214,7 @@ TEST(ErrorBounds, NetsOnBoxesHoldTheExactCoefficients) {
     const auto nasty = nasty_polynomials();
     const Polynomial<2> p = round % 5 == 4 ? nasty[round / 5 % nasty.size()]
                                            : random_polynomial(random, degree, round % 5);
-    const FilteredPolynomial<2> f(p);
+    const FilteredFunction<2> f(p);
     const Box<2> box = random_box(random, round / 5 % 5);
     const int m = f.degree() + round % 2;
     const std::vector<Rational> exact = exact_net(p, box, m);
@@ -239,7 +239,7 @@ TEST(ErrorBounds, RestrictionsToLinesHoldTheExactCoefficients) {
     const auto nasty = nasty_polynomials();
     const Polynomial<2> p = round % 5 == 4 ? nasty[round / 5 % nasty.size()]
                                            : random_polynomial(random, degree, round % 5);
-    const FilteredPolynomial<2> f(p);
+    const FilteredFunction<2> f(p);
     std::array<Rational, 3> c;
     for (auto& x : c)
       x = round % 2 ? Rational(uniform(random, -1, 1))
@@ -276,7 +276,7 @@ TEST(ErrorBounds, RestrictionsToSegmentsHoldTheExactCoefficients) {
   Random random(3);
   for (int round = 0; round < 40; ++round) {
     const Polynomial<2> p = random_polynomial(random, 1 + round % 8, round % 4);
-    const FilteredPolynomial<2> f(p);
+    const FilteredFunction<2> f(p);
     const Box<2> box = random_box(random, round / 4 % 5);
     const double lo = uniform(random, -1, 0), hi = uniform(random, 0, 1);
     const Centered chart = centered(lo, hi);
@@ -301,7 +301,7 @@ TEST(ErrorBounds, HalvesAndDerivativesHoldTheExactCoefficients) {
   double most = 0;
   for (int round = 0; round < 12; ++round) {
     const Polynomial<2> p = random_polynomial(random, 2 + round % 7, round % 4);
-    const FilteredPolynomial<2> f(p);
+    const FilteredFunction<2> f(p);
     Box<2> box{{-1, -0.75}, {1, 0.5}};
     Kernel kernel;
     Bernstein<2> net, lower, upper, derivative, elevated, sum;
@@ -342,7 +342,7 @@ TEST(ErrorBounds, ValuesHoldTheExactValue) {
     const auto nasty = nasty_polynomials();
     const Polynomial<2> p = round % 5 == 4 ? nasty[round / 5 % nasty.size()]
                                            : random_polynomial(random, 1 + round % 9, round % 5);
-    const FilteredPolynomial<2> f(p);
+    const FilteredFunction<2> f(p);
     const Box<2> box = random_box(random, round / 5 % 5);
     const Point<2>& at = box.lo;
     const Rational exact = p({Rational(at[0]), Rational(at[1])}) * scale_of(f);
@@ -368,7 +368,7 @@ TEST(ErrorBounds, SignsAtRationalPointsAreExactOnEveryRung) {
                    (Polynomial<2>::variable(1) - Polynomial<2>::constant(y)).power(3) +
                    Polynomial<2>::constant(offset);
     Kernel kernel;
-    EXPECT_EQ(FilteredPolynomial<2>(f).sign_at({x, y}, kernel), sign_of(sgn(offset)));
+    EXPECT_EQ(FilteredFunction<2>(f).sign_at({x, y}, kernel), sign_of(sgn(offset)));
   }
 }
 
@@ -377,7 +377,7 @@ TEST(ErrorBounds, AreKeptWhereDoublesUnderflow) {
   const auto x = Polynomial<2>::variable(0), y = Polynomial<2>::variable(1);
   const Rational root = power_of_two(-300) / 3;
   const Polynomial<2> p = x.power(3) * (x - Polynomial<2>::constant(root)).power(2) * y.power(20);
-  const FilteredPolynomial<2> f(p);
+  const FilteredFunction<2> f(p);
   for (const double u : {1.0, 1.1, 1.7}) {
     const Point<2> at{root.get_d(), 0x1p30 * u};
     for (const int bits : kRungs) {
@@ -395,7 +395,7 @@ TEST(ErrorBounds, DoNotVanishAtTheHighestPrecisions) {
   const Polynomial<2> p =
       (Polynomial<2>::variable(0) - Polynomial<2>::constant(Rational(1000, 3))).power(34) *
       Polynomial<2>::variable(1).power(20);
-  const FilteredPolynomial<2> f(p);
+  const FilteredFunction<2> f(p);
   const Point<2> at{1000.0 / 3, 0x1.f8p31};
   const Rational exact = p({Rational(at[0]), Rational(at[1])}) * scale_of(f);
   for (const int bits : {848, 1696, 3392}) {
@@ -413,7 +413,7 @@ TEST(ErrorBounds, AreKeptWhereALineUnderflows) {
       Polynomial<2>::variable(1) +
       Polynomial<2>::constant(Rational(line.normal[0] * 0x1p890) * Rational(1 + 0x1p-30)) *
           Polynomial<2>::variable(0);
-  const FilteredPolynomial<2> filtered(f);
+  const FilteredFunction<2> filtered(f);
   for (int k = 1; k < 30; ++k) {
     const double t = 0x1p-175 * (1 + 0.03 * k);
     Kernel kernel;
@@ -427,7 +427,7 @@ TEST(ErrorBounds, AreKeptWhereALineUnderflows) {
 
 TEST(ErrorBounds, NothingIsClaimedWhereDoublesOverflow) {
   const auto x = Polynomial<2>::variable(0), y = Polynomial<2>::variable(1);
-  const FilteredPolynomial<2> f(x.power(5) - y.power(5) + x);
+  const FilteredFunction<2> f(x.power(5) - y.power(5) + x);
   for (const double far : {0x1p180, 0x1p204, 0x1p206, 0x1p500, 0x1p1023})
     for (const int bits : kRungs) {
       Kernel kernel;

@@ -16,7 +16,7 @@ namespace {
 using written::polynomial;
 
 template <int D>
-RootIsolation<D> isolate(const std::vector<FilteredPolynomial<D>>& polynomials, const Box<D>& box,
+RootIsolation<D> isolate(const std::vector<FilteredFunction<D>>& polynomials, const Box<D>& box,
                          const std::vector<Hyperplane<D>>& half_spaces = {}) {
   System<D> system;
   for (std::size_t i = 0; i < D; ++i) system[i] = &polynomials[i];
@@ -25,8 +25,8 @@ RootIsolation<D> isolate(const std::vector<FilteredPolynomial<D>>& polynomials, 
 }
 
 template <int D>
-std::vector<FilteredPolynomial<D>> filtered(const std::vector<std::string>& texts) {
-  std::vector<FilteredPolynomial<D>> result;
+std::vector<FilteredFunction<D>> filtered(const std::vector<std::string>& texts) {
+  std::vector<FilteredFunction<D>> result;
   for (const std::string& text : texts) result.emplace_back(polynomial<D>(text));
   return result;
 }
@@ -34,7 +34,7 @@ std::vector<FilteredPolynomial<D>> filtered(const std::vector<std::string>& text
 /// Proves again what the result claims: the boxes, and the cover leaf by leaf.
 template <int D>
 void expect_proved(const RootIsolation<D>& result,
-                   const std::vector<FilteredPolynomial<D>>& polynomials) {
+                   const std::vector<FilteredFunction<D>>& polynomials) {
   System<D> system;
   for (std::size_t i = 0; i < D; ++i) system[i] = &polynomials[i];
   Kernel kernel;
@@ -78,8 +78,8 @@ TEST(IsolateRoots, FindsAsManyAsTheResultantsHave) {
       int reach = 1;
       while (count_real_roots(in_y, -reach, reach) < all) reach *= 2;
       const Box<2> box{{-1, -1.0 * reach}, {1, 1.0 * reach}};
-      const std::vector<FilteredPolynomial<2>> curves{FilteredPolynomial<2>(exact[0]),
-                                                      FilteredPolynomial<2>(exact[1])};
+      const std::vector<FilteredFunction<2>> curves{FilteredFunction<2>(exact[0]),
+                                                    FilteredFunction<2>(exact[1])};
       const auto result = isolate<2>(curves, box);
       EXPECT_TRUE(result.unresolved.empty());
       int inside = 0;

@@ -60,7 +60,8 @@ struct Curve {
     return roots;
   }
   int exact_count(const Line& on, double lo, double hi) const {
-    return count_real_roots(restrict_exactly(filtered.exact(), on), Rational(lo), Rational(hi));
+    return count_real_roots(restrict_exactly(filtered.polynomial().exact(), on), Rational(lo),
+                            Rational(hi));
   }
 
   Kernel& prepared(int start_bits) {
@@ -69,14 +70,14 @@ struct Curve {
   }
 
   Kernel kernel;
-  FilteredPolynomial<2> filtered;
-  TiledPolynomial tiled;
+  FilteredFunction<2> filtered;
+  TiledFunction tiled;
 };
 
 /// The intervals are in order, disjoint, within [lo, hi], and each has one root, none at its ends.
 void expect_isolated(const std::vector<LineRoot>& roots, const Curve& f, const Line& on, double lo,
                      double hi) {
-  const Polynomial<1> exact = restrict_exactly(f.filtered.exact(), on);
+  const Polynomial<1> exact = restrict_exactly(f.filtered.polynomial().exact(), on);
   double last = lo;
   for (const LineRoot& root : roots) {
     EXPECT_LE(last, root.lo);
@@ -494,7 +495,7 @@ TEST(RefineLineRoot, ShrinksToNeighbouringDoublesAndKeepsTheRoot) {
   for (const std::string text : {"x^3 - y/3 + x - 1/3", "x^2 - 1/2 + y", "10^6 (x - 1/7) + x y"}) {
     Curve f(text);
     const Line on = line(Rational(1, 50), 1, Rational(-1, 100));
-    const Polynomial<1> exact = restrict_exactly(f.filtered.exact(), on);
+    const Polynomial<1> exact = restrict_exactly(f.filtered.polynomial().exact(), on);
     const auto roots = f.isolate(on, 0.0625, 1);
     ASSERT_TRUE(roots.has_value());
     ASSERT_EQ(roots->size(), 1u);
@@ -544,7 +545,7 @@ TEST(SignOnLineFromTiles, IsExactAtEveryParameter) {
   // On y = 1/3 x the other coordinate is no double.
   std::mt19937_64 generator(3);
   const Line third = line(Rational(-1, 3), 1, 0);
-  const Polynomial<1> exact = restrict_exactly(f.filtered.exact(), third);
+  const Polynomial<1> exact = restrict_exactly(f.filtered.polynomial().exact(), third);
   for (int i = 0; i < 100; ++i) {
     const double at = std::sqrt(0.9) + std::ldexp(symmetric_random(generator), -(i % 53));
     EXPECT_EQ(sign_on_line(f.tiled, third, at, f.kernel), sign_of(sgn(exact({Rational(at)}))));

@@ -74,10 +74,10 @@ class PatchOfDegree : public testing::TestWithParam<int> {};
 TEST_P(PatchOfDegree, IsAsCloseAsItSays) {
   const int degree = GetParam();
   Random random(static_cast<std::uint64_t>(degree));
-  const FilteredPolynomial<2> f(random_polynomial(degree, random));
+  const FilteredFunction<2> f(random_polynomial(degree, random));
   const Exact exact(f);
   Kernel kernel;
-  TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+  TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
   Tile whole;
   tiled.expand({{-1, -1}, {1, 1}}, 53, &whole);
   for (int count = patch_count(degree); count <= Patch::kMaxCount; ++count)
@@ -98,10 +98,10 @@ TEST_P(PatchOfDegree, IsAsCloseAsItSays) {
 TEST_P(PatchOfDegree, StaysCloseThroughHalvings) {
   const int degree = GetParam();
   Random random(static_cast<std::uint64_t>(degree) + 50);
-  const FilteredPolynomial<2> f(random_polynomial(degree, random));
+  const FilteredFunction<2> f(random_polynomial(degree, random));
   const Exact exact(f);
   Kernel kernel;
-  TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+  TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
   for (int count = patch_count(degree); count <= Patch::kMaxCount; ++count) {
     Box<2> box = random_box(2, random);
     Patch patch, halves[2];
@@ -131,10 +131,10 @@ INSTANTIATE_TEST_SUITE_P(Degrees, PatchOfDegree,
                          [](const auto& test) { return std::to_string(test.param); });
 
 TEST(Patch, HalvesOfProvedSignKeepWhatIsSaid) {
-  const FilteredPolynomial<2> f(written::polynomial<2>("x - 1/4 + y/100"));
+  const FilteredFunction<2> f(written::polynomial<2>("x - 1/4 + y/100"));
   Kernel kernel;
   const Box<2> box{{-1, -1}, {1, 1}};
-  TiledPolynomial tiled(f, box, kernel);
+  TiledFunction tiled(f, box, kernel);
   Patch patch, lower, upper, whole_lower, whole_upper;
   expand(tiled.at({0, 0}), box, 3, &patch);
   halve(patch, 0, false, &lower, &upper);
@@ -150,10 +150,10 @@ TEST(Patch, HalvesOfProvedSignKeepWhatIsSaid) {
 }
 
 TEST(Patch, OfATileThatClaimsNothingProvesNothing) {
-  const FilteredPolynomial<2> f(written::polynomial<2>("x^3 + y^3 + 1"));
+  const FilteredFunction<2> f(written::polynomial<2>("x^3 + y^3 + 1"));
   Kernel kernel;
   const Box<2> box{{-1e300, -1e300}, {1e300, 1e300}};
-  TiledPolynomial of_f(f, box, kernel);
+  TiledFunction of_f(f, box, kernel);
   Tile tile;
   of_f.expand(box, 53, &tile);
   Patch p;
@@ -166,13 +166,13 @@ TEST(Patch, OfATileThatClaimsNothingProvesNothing) {
 TEST(Patch, CombinationsThatOverflowProveNothing) {
   // The gradient is zero at the middle of the left side. In the combination that the Hessian
   // suggests everything there is infinity less infinity, and all else has one sign.
-  const FilteredPolynomial<2> f(written::polynomial<2>("x^2 + 3 x y - y^2"));
+  const FilteredFunction<2> f(written::polynomial<2>("x^2 + 3 x y - y^2"));
   Kernel kernel;
   int overflows = 0;
   for (int e = 200; e <= 448; ++e) {
     const double size = std::ldexp(1.0, e);
     const Box<2> box{{0, -size}, {2 * size, size}};
-    TiledPolynomial tiled(f, box, kernel);
+    TiledFunction tiled(f, box, kernel);
     Tile tile;
     tiled.expand(box, 53, &tile);
     for (int count = 3; count <= 8; ++count) {
@@ -200,11 +200,10 @@ TEST(CriticalPatch, BoxesWithALocalMaximumOrASingularPointAreKept) {
     const Polynomial<2> u = offset(0), v = offset(1);
     const Polynomial<2> q =
         Polynomial<2>::constant(Rational(8)) + random_polynomial(1 + round % 8, random);
-    const FilteredPolynomial<2> f(Polynomial<2>::constant(c) +
-                                  Polynomial<2>::constant(Rational(-1)) * (u * u + u * v + v * v) *
-                                      q);
+    const FilteredFunction<2> f(Polynomial<2>::constant(c) + Polynomial<2>::constant(Rational(-1)) *
+                                                                 (u * u + u * v + v * v) * q);
     Kernel kernel;
-    TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+    TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
     for (int level = 0; level < 36; level += 2) {
       const double width = std::ldexp(1.0, 1 - level);
       Box<2> box;
@@ -247,9 +246,9 @@ TEST(InterpolationLoss, BoundsThePowers) {
   // s^k less its interpolant at the nodes of a patch, sampled; and its derivatives by differences.
   for (int k = 8; k <= Tile::kMaxDegree; ++k) {
     Kernel kernel;
-    const FilteredPolynomial<2> f(written::polynomial<2>("x^" + std::to_string(k)));
+    const FilteredFunction<2> f(written::polynomial<2>("x^" + std::to_string(k)));
     const Box<2> box{{-1, -1}, {1, 1}};
-    TiledPolynomial tiled(f, box, kernel);
+    TiledFunction tiled(f, box, kernel);
     Tile tile;
     tiled.expand(box, 53, &tile);
     Patch patch;

@@ -55,10 +55,10 @@ class Subdivided {
   bool unresolved = false;
 
  private:
-  FilteredPolynomial<2> f_;
+  FilteredFunction<2> f_;
   Box<2> root_;
   Kernel kernel_;
-  TiledPolynomial tiled_;
+  TiledFunction tiled_;
 };
 
 using Node = PlaneSubdivision<1>::Node;
@@ -137,11 +137,11 @@ TEST(PlaneSubdivision, WhatLiesOutsideALineIsNotVisited) {
 }
 
 TEST(PlaneSubdivision, PartsWithoutZerosAreExcluded) {
-  const FilteredPolynomial<2> f(written::polynomial<2>("x - 1/3")),
+  const FilteredFunction<2> f(written::polynomial<2>("x - 1/3")),
       g(written::polynomial<2>("y + 1/7"));
   const Box<2> root{{-1, -1}, {1, 1}};
   Kernel kernel;
-  TiledPolynomial of_f(f, root, kernel), of_g(g, root, kernel);
+  TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
   const SubdivisionLimits limits;
   const std::vector<Line> none;
   PlaneSubdivision<2> subdivision({&of_f, &of_g}, root, none, limits, kernel);
@@ -173,7 +173,7 @@ TEST(PlaneSubdivision, ZerosBetweenDoublesAreNotLost) {
     };
     const Polynomial<2> u = offset(0), v = offset(1);
     // They touch there, so that no box of the zero can be settled.
-    const FilteredPolynomial<2> f(v + Polynomial<2>::constant(Rational(-1)) * u * u), g(v + u * u);
+    const FilteredFunction<2> f(v + Polynomial<2>::constant(Rational(-1)) * u * u), g(v + u * u);
     const System<2> system{&f, &g};
     const double at = std::ldexp(1.0, e);
     Kernel kernel;
@@ -192,17 +192,17 @@ TEST(PlaneSubdivision, ZerosBetweenDoublesAreNotLost) {
 TEST(PlaneSubdivision, DegreesZeroOneAndSixtyAreSubdivided) {
   Kernel kernel;
   const Box<2> box{{-1, -1}, {1, 1}};
-  const FilteredPolynomial<2> constant(written::polynomial<2>("3")),
+  const FilteredFunction<2> constant(written::polynomial<2>("3")),
       line(written::polynomial<2>("x - y/3 + 1/10")),
       high(written::polynomial<2>("x^60 + y^60 - (x + y)^7 + 1/9"));
-  const auto roots = [&](const FilteredPolynomial<2>& f, const FilteredPolynomial<2>& g) {
+  const auto roots = [&](const FilteredFunction<2>& f, const FilteredFunction<2>& g) {
     const auto result = isolate_roots<2>(System<2>{&f, &g}, box, {}, SubdivisionLimits{}, kernel);
     expect_tiles(result.root_box, result.tokens);
     EXPECT_TRUE(result.unresolved.empty());
     return result.roots;
   };
   EXPECT_TRUE(roots(constant, line).empty());
-  const FilteredPolynomial<2> other(written::polynomial<2>("x + y/2 - 1/5"));
+  const FilteredFunction<2> other(written::polynomial<2>("x + y/2 - 1/5"));
   ASSERT_EQ(roots(line, other).size(), 1u);
   EXPECT_FALSE(roots(line, high).empty());
 }

@@ -18,8 +18,8 @@ using written::polynomial;
 
 constexpr int kMaxNodes = 400;
 
-FilteredPolynomial<2> filtered(const std::string& text) {
-  return FilteredPolynomial<2>(polynomial<2>(text));
+FilteredFunction<2> filtered(const std::string& text) {
+  return FilteredFunction<2>(polynomial<2>(text));
 }
 
 Line line(const Rational& a, const Rational& b, const Rational& c) {
@@ -28,20 +28,20 @@ Line line(const Rational& a, const Rational& b, const Rational& c) {
 
 const Line kXAxis = line(0, 1, 0);
 
-std::optional<std::vector<RootInterval>> isolate(const FilteredPolynomial<2>& f, const Line& on,
+std::optional<std::vector<RootInterval>> isolate(const FilteredFunction<2>& f, const Line& on,
                                                  double lo, double hi) {
   Kernel kernel;
   return isolate_on_line(f, on, lo, hi, kMaxNodes, kernel);
 }
 
-int exact_count(const FilteredPolynomial<2>& f, const Line& on, double lo, double hi) {
-  return count_real_roots(restrict_exactly(f.exact(), on), Rational(lo), Rational(hi));
+int exact_count(const FilteredFunction<2>& f, const Line& on, double lo, double hi) {
+  return count_real_roots(restrict_exactly(f.polynomial().exact(), on), Rational(lo), Rational(hi));
 }
 
 /// The intervals are in order, disjoint, within [lo, hi], and each has one root, none at its ends.
-void expect_isolated(const std::vector<RootInterval>& roots, const FilteredPolynomial<2>& f,
+void expect_isolated(const std::vector<RootInterval>& roots, const FilteredFunction<2>& f,
                      const Line& on, double lo, double hi) {
-  const Polynomial<1> exact = restrict_exactly(f.exact(), on);
+  const Polynomial<1> exact = restrict_exactly(f.polynomial().exact(), on);
   Kernel kernel;
   double last = lo;
   for (const RootInterval& root : roots) {
@@ -67,7 +67,7 @@ TEST(IsolateOnLine, FindsAsManyRootsAsExactArithmetic) {
     options.count = 3;
     options.seed = static_cast<unsigned>(100 + degree);
     for (const Polynomial<2>& exact : random_polynomials<2>(options)) {
-      const FilteredPolynomial<2> f(exact);
+      const FilteredFunction<2> f(exact);
       for (const Line& on : lines)
         for (const auto& [lo, hi] : {std::pair{-1.0, 1.0}, {-0.3, 0.1}, {0.1, 7.3}}) {
           const auto roots = isolate(f, on, lo, hi);
@@ -85,7 +85,7 @@ TEST(IsolateOnLine, CloseRootsAreTold) {
   for (const std::string gap : {"1e-6", "1e-12"}) {
     const auto f = filtered("(y - x^2 + 1/4) - " + gap + "^2/3");
     const auto g = filtered("(x - 1/3)^2 + y - " + gap + "^2");  // two roots 2 gap apart
-    for (const FilteredPolynomial<2>* h : {&f, &g}) {
+    for (const FilteredFunction<2>* h : {&f, &g}) {
       const auto roots = isolate(*h, kXAxis, -1, 1);
       ASSERT_TRUE(roots.has_value()) << gap;
       EXPECT_EQ(roots->size(), 2u);
@@ -215,7 +215,7 @@ TEST(RefineOnLine, ShrinksToNeighbouringDoublesAndKeepsTheRoot) {
   for (const std::string text : {"x^3 - y/3 + x - 1/3", "x^2 - 2 + y", "10^6 (x - 1/7) + x y"}) {
     const auto f = filtered(text);
     const Line on = line(Rational(1, 50), 1, Rational(-1, 100));
-    const Polynomial<1> exact = restrict_exactly(f.exact(), on);
+    const Polynomial<1> exact = restrict_exactly(f.polynomial().exact(), on);
     auto roots = isolate(f, on, 0.0625, 2);
     ASSERT_TRUE(roots.has_value());
     ASSERT_EQ(roots->size(), 1u);
@@ -256,7 +256,7 @@ TEST(SignOnLine, IsExactAtEveryParameter) {
   // On y = 1/3 x the other coordinate is no double.
   std::mt19937_64 generator(3);
   const Line third = line(Rational(-1, 3), 1, 0);
-  const Polynomial<1> exact = restrict_exactly(f.exact(), third);
+  const Polynomial<1> exact = restrict_exactly(f.polynomial().exact(), third);
   for (int i = 0; i < 100; ++i) {
     const double at = std::sqrt(0.9) + std::ldexp(symmetric_random(generator), -(i % 53));
     EXPECT_EQ(sign_on_line(f, third, at, kernel), sign_of(sgn(exact({Rational(at)}))));

@@ -19,10 +19,10 @@ TEST(Sketch, HasAboutTheValuesAndSlopesOfThePolynomial) {
   for (const int degree : {2, 5, 9, 15}) {
     RandomOptions options;
     options.degree = degree;
-    const FilteredPolynomial<2> f(random_polynomials<2>(options)[0]);
+    const FilteredFunction<2> f(random_polynomials<2>(options)[0]);
     Kernel kernel;
     const Box<2> box{{0.1, -0.4}, {0.35, -0.2}};
-    TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+    TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
     Sketch sketch;
     ASSERT_TRUE(make_sketch(tiled, box, &sketch));
     EXPECT_LE(sketch.degree, degree);
@@ -65,9 +65,9 @@ TEST(Sketch, HasAboutTheValuesAndSlopesOfThePolynomial) {
 TEST(Sketch, CountsTheSignChangesOnASegment) {
   RandomOptions options;
   options.degree = 12;
-  const FilteredPolynomial<2> f(random_polynomials<2>(options)[0]);
+  const FilteredFunction<2> f(random_polynomials<2>(options)[0]);
   Kernel kernel;
-  TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+  TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
   const Box<2> box{{-0.3, -0.3}, {0.2, 0.4}};
   Sketch sketch;
   ASSERT_TRUE(make_sketch(tiled, box, &sketch));
@@ -91,9 +91,9 @@ TEST(Sketch, CountsTheSignChangesOnASegment) {
 TEST(Sketch, IsNotMadeFarBeyondATile) {
   RandomOptions options;
   options.degree = 25;
-  const FilteredPolynomial<2> f(random_polynomials<2>(options)[0]);
+  const FilteredFunction<2> f(random_polynomials<2>(options)[0]);
   Kernel kernel;
-  TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+  TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
   Sketch sketch;
   EXPECT_FALSE(make_sketch(tiled, {{-1, -1}, {1, 1}}, &sketch));
   EXPECT_FALSE(make_sketch(tiled, {{0.5, -1}, {0.5, 1}}, &sketch));

@@ -30,7 +30,7 @@ constexpr int kInside = 7, kLeaf = 9;
 /// The octree of a sphere of radius 1: excluded where f has a sign, down to boxes of width 1/4.
 Subdivision<3> sphere_octree(const Box<3>& root, const std::vector<Hyperplane<3>>& half_spaces,
                              const SubdivisionLimits& limits) {
-  const FilteredPolynomial<3> f(polynomial<3>("x^2 + y^2 + z^2 - 1"));
+  const FilteredFunction<3> f(polynomial<3>("x^2 + y^2 + z^2 - 1"));
   Kernel kernel;
   return subdivide<3, 1>({&f}, root, half_spaces, limits, kernel,
                          [](const std::array<Bernstein<3>, 1>& nets, const Box<3>& box) {
@@ -120,7 +120,7 @@ TEST(Subdivide, LimitsLeaveBoxesUnresolved) {
 TEST(Subdivide, NetsStaySharpDownToTinyBoxes) {
   // (x - 1/3)^2 + (y - 1/3)^2 = 2^-60: the values on the way down are far below rounding errors of
   // the root's net.
-  const FilteredPolynomial<2> f(polynomial<2>("(x - 1/3)^2 + (y - 1/3)^2 - 1/2^60"));
+  const FilteredFunction<2> f(polynomial<2>("(x - 1/3)^2 + (y - 1/3)^2 - 1/2^60"));
   const Box<2> root{{0, 0}, {1, 1}};
   Kernel kernel;
   const auto tree = subdivide<2, 1>(

@@ -31,13 +31,13 @@ Polynomial<2> random_polynomial(int degree, bool doubles, Random& random) {
   return Polynomial<2>::from_terms(std::move(terms));
 }
 
-/// f as FilteredPolynomial scales it.
-Polynomial<2> scaled(const FilteredPolynomial<2>& f) {
-  return Polynomial<2>::constant(1 / Rational(f.scale())) * f.exact();
+/// f as FilteredFunction scales it.
+Polynomial<2> scaled(const FilteredFunction<2>& f) {
+  return Polynomial<2>::constant(1 / Rational(f.scale())) * f.polynomial().exact();
 }
 
 /// f in the tile's coordinates.
-Polynomial<2> composed(const FilteredPolynomial<2>& f, const Tile& tile) {
+Polynomial<2> composed(const FilteredFunction<2>& f, const Tile& tile) {
   return exact_bernstein::compose<2>(scaled(f),
                                      {Rational(tile.center[0]), Rational(tile.center[1])},
                                      {Rational(tile.half[0]), Rational(tile.half[1])});
@@ -46,7 +46,7 @@ Polynomial<2> composed(const FilteredPolynomial<2>& f, const Tile& tile) {
 /// What the tile says of f is true: the differences of the coefficients, weighted for |s_k| <=
 /// kReach, add up to no more than the errors of the value and the derivatives; and the sums of the
 /// coefficients are what they say.
-void expect_true(const Tile& tile, const FilteredPolynomial<2>& f) {
+void expect_true(const Tile& tile, const FilteredFunction<2>& f) {
   ASSERT_EQ(tile.degree, std::min(f.degree(), Tile::kMaxDegree));
   ASSERT_TRUE(std::isfinite(tile.error));
   const Rational reach(Tile::kReach);
@@ -101,7 +101,7 @@ std::vector<Point<2>> random_points(const Box<2>& box, int count, Random& random
 }
 
 /// The values at the points, eight at a time.
-std::vector<double> values_at(const TiledPolynomial& f, const std::vector<Point<2>>& points) {
+std::vector<double> values_at(const TiledFunction& f, const std::vector<Point<2>>& points) {
   std::vector<double> values(points.size());
   for (std::size_t k = 0; k < points.size(); k += 8)
     f.values(&points[k], static_cast<int>(std::min<std::size_t>(8, points.size() - k)), &values[k]);
@@ -124,9 +124,9 @@ TEST_P(TileOfDegree, IsAsCloseAsItSays) {
   const int degree = GetParam();
   Random random(static_cast<std::uint64_t>(degree));
   for (const bool doubles : {true, false}) {
-    const FilteredPolynomial<2> f(random_polynomial(degree, doubles, random));
+    const FilteredFunction<2> f(random_polynomial(degree, doubles, random));
     Kernel kernel;
-    TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+    TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
     for (const Box<2>& box :
          {Box<2>{{-1, -1}, {1, 1}}, box_near(0.9, -1, 0.1, random),
           box_near(symmetric_random(random), symmetric_random(random), 1e-5, random),
@@ -148,11 +148,11 @@ TEST_P(TileOfDegree, ValuesAreAsCloseAsTheySay) {
   const int degree = GetParam();
   Random random(static_cast<std::uint64_t>(degree) + 100);
   for (const bool doubles : {true, false}) {
-    const FilteredPolynomial<2> f(random_polynomial(degree, doubles, random));
+    const FilteredFunction<2> f(random_polynomial(degree, doubles, random));
     const Polynomial<2> exact = scaled(f);
     Kernel kernel;
     const Box<2> root{{-1.5, -1}, {1, 2}};
-    TiledPolynomial tiled(f, root, kernel);
+    TiledFunction tiled(f, root, kernel);
     std::vector<Point<2>> points = random_points(root, 6, random);
     points[0] = {0, 0};
     points[1] = root.hi;
@@ -178,10 +178,10 @@ INSTANTIATE_TEST_SUITE_P(Degrees, TileOfDegree,
 TEST(Tile, PreciseValuesHoldWhereTheyCancel) {
   // (x - y)^9 + (x - 1/3)^20 next to x = y = 1/3: all digits of doubles cancel.
   Random random(3);
-  const FilteredPolynomial<2> f(written::polynomial<2>("(x - y)^9 + (x - 1/3)^20 + (y - 1/3)^12"));
+  const FilteredFunction<2> f(written::polynomial<2>("(x - y)^9 + (x - 1/3)^20 + (y - 1/3)^12"));
   const Polynomial<2> exact = scaled(f);
   Kernel kernel;
-  TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+  TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
   for (int round = 0; round < 20; ++round) {
     const double spread = std::ldexp(1.0, -2 * round);
     const Point<2> point{1 / 3.0 + spread * symmetric_random(random),
@@ -199,10 +199,10 @@ TEST(Tile, PreciseValuesHoldWhereTheyCancel) {
 TEST(Tile, TheTreeHasATileForEveryPoint) {
   Random random(4);
   for (const int degree : {3, 9, 25}) {
-    const FilteredPolynomial<2> f(random_polynomial(degree, true, random));
+    const FilteredFunction<2> f(random_polynomial(degree, true, random));
     Kernel kernel;
     const Box<2> root{{-2, -1}, {1, 3}};
-    TiledPolynomial tiled(f, root, kernel);
+    TiledFunction tiled(f, root, kernel);
     std::vector<Point<2>> points{root.lo, root.hi, root.center(), {-2, 3}};
     for (int k = 0; k < 40; ++k)
       points.push_back({-0.5 + 1.5 * symmetric_random(random), 1 + 2 * symmetric_random(random)});
@@ -228,9 +228,9 @@ TEST(Tile, TilesOfTheTreeAreAsGoodAsTilesOfTheirOwn) {
                           {{-1, -0.1}, {1.1, 1 / 3.0}}};
   for (const int degree : {16, 20, 24, 30, 31})
     for (const Box<2>& root : roots) {
-      const FilteredPolynomial<2> f(random_polynomial(degree, degree % 4 == 0, random));
+      const FilteredFunction<2> f(random_polynomial(degree, degree % 4 == 0, random));
       Kernel kernel;
-      TiledPolynomial tiled(f, root, kernel);
+      TiledFunction tiled(f, root, kernel);
       std::vector<Point<2>> points = random_points(root, 4, random);
       points.push_back(root.lo);
       points.push_back(root.center());
@@ -261,11 +261,11 @@ TEST(Tile, HalvingLosesLittleWhereNumbersCancel) {
   // A polynomial that is flat around a point: the tiles there have small coefficients, those of
   // the rectangles that they are quarters of have large ones.
   Random random(7);
-  const FilteredPolynomial<2> f(written::polynomial<2>(
+  const FilteredFunction<2> f(written::polynomial<2>(
       "((x - 5/8)^2 + (y - 3/8)^2)^9 + (x - 1/3)^6 (x + y - 1)^6 (x - y + 1/16)^8"));
   for (const Box<2>& root : {Box<2>{{-1, -1}, {1, 1}}, Box<2>{{-8, -8}, {8, 8}}}) {
     Kernel kernel;
-    TiledPolynomial tiled(f, root, kernel);
+    TiledFunction tiled(f, root, kernel);
     for (const Point<2>& point :
          {Point<2>{0.625, 0.375}, Point<2>{0.626, 0.374}, Point<2>{1 / 3.0, 0.39}, root.hi})
       expect_true(tiled.at(point), f);
@@ -274,9 +274,9 @@ TEST(Tile, HalvingLosesLittleWhereNumbersCancel) {
 
 TEST(Tile, HighTermsBoundThoseAroundAnyPoint) {
   Random random(8);
-  const FilteredPolynomial<2> f(random_polynomial(13, true, random));
+  const FilteredFunction<2> f(random_polynomial(13, true, random));
   Kernel kernel;
-  TiledPolynomial tiled(f, {{-0.5, -0.5}, {0.5, 0.5}}, kernel);
+  TiledFunction tiled(f, {{-0.5, -0.5}, {0.5, 0.5}}, kernel);
   const Tile& tile = tiled.at({0, 0});
   for (int k = 8; k <= 15; ++k) {
     double expected = 0;
@@ -294,10 +294,10 @@ TEST(Tile, HighTermsBoundThoseAroundAnyPoint) {
 TEST(Tile, AValueDoesNotDependOnTheOtherPoints) {
   Random random(9);
   for (const int degree : {0, 1, 3, 8, 20}) {
-    const FilteredPolynomial<2> f(random_polynomial(degree, false, random));
+    const FilteredFunction<2> f(random_polynomial(degree, false, random));
     Kernel kernel;
     const Box<2> root{{-1, -1}, {1, 1}};
-    TiledPolynomial tiled(f, root, kernel);
+    TiledFunction tiled(f, root, kernel);
     std::vector<Point<2>> points = random_points(root, 8, random);
     const std::vector<double> values = values_at(tiled, points);
     for (int k = 0; k < 8; ++k) {
@@ -318,9 +318,9 @@ TEST(Tile, AValueDoesNotDependOnTheOtherPoints) {
 TEST(Tile, ValuesAndGradientsAtEightPoints) {
   Random random(10);
   for (const int degree : {0, 1, 3, 8, 15, 20}) {
-    const FilteredPolynomial<2> f(random_polynomial(degree, true, random));
+    const FilteredFunction<2> f(random_polynomial(degree, true, random));
     Kernel kernel;
-    TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+    TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
     const Tile& tile = tiled.at({0.3, -0.4});
     const std::vector<Point<2>> points = random_points({{-1, -1}, {1, 1}}, 8, random);
     double value[8], ds[8], dt[8];
@@ -345,9 +345,9 @@ TEST(Tile, AreTheSameForEveryInstructionSet) {
     Random random(11);
     const Box<2> root{{-1.03125, -1.03125}, {1.0625, 1.0625}};
     for (const int degree : {0, 3, 7, 8, 15, 16, 20, 23, 30, 35}) {
-      const FilteredPolynomial<2> f(random_polynomial(degree, false, random));
+      const FilteredFunction<2> f(random_polynomial(degree, false, random));
       Kernel kernel;
-      TiledPolynomial tiled(f, root, kernel);
+      TiledFunction tiled(f, root, kernel);
       const std::vector<Point<2>> points = random_points(root, 8, random);
       for (const Point<2>& point : points) {
         const Tile& tile = tiled.at(point);
@@ -383,10 +383,10 @@ TEST(Tile, CoefficientsFarOutsideTheRangeOfDoublesAreScaled) {
   mpz_ui_pow_ui(scale.get_num_mpz_t(), 2, 1500);
   for (const Rational& c : {scale, Rational(1 / scale)}) {
     // A power of two: the scaled polynomials are the same.
-    const FilteredPolynomial<2> f(Polynomial<2>::constant(c) * exact), g(exact);
+    const FilteredFunction<2> f(Polynomial<2>::constant(c) * exact), g(exact);
     Kernel kernel;
     const Box<2> box{{-1, -1}, {1, 1}};
-    TiledPolynomial of_f(f, box, kernel), of_g(g, box, kernel);
+    TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
     const Point<2> point{0.3, 0.4};
     EXPECT_EQ(of_f.value(point), of_g.value(point));
     EXPECT_EQ(of_f.at(point).a, of_g.at(point).a);
@@ -396,9 +396,9 @@ TEST(Tile, CoefficientsFarOutsideTheRangeOfDoublesAreScaled) {
 }
 
 TEST(Tile, NothingIsClaimedWhereNumbersOverflow) {
-  const FilteredPolynomial<2> f(written::polynomial<2>("x^5 y - 2 x^2 + y^4 - 1"));
+  const FilteredFunction<2> f(written::polynomial<2>("x^5 y - 2 x^2 + y^4 - 1"));
   Kernel kernel;
-  TiledPolynomial tiled(f, {{-1e300, -1e300}, {1e300, 1e300}}, kernel);
+  TiledFunction tiled(f, {{-1e300, -1e300}, {1e300, 1e300}}, kernel);
   for (const int bits : {53, 106}) {
     Tile tile;
     tiled.expand({{-1e300, -1e300}, {1e300, 1e300}}, bits, &tile);
@@ -415,10 +415,10 @@ TEST(Tile, NothingIsClaimedWhereNumbersOverflow) {
 }
 
 TEST(Tile, ClaimsHoldNextToWhatUnderflows) {
-  const FilteredPolynomial<2> f(written::polynomial<2>("x^5 y - 2 x^2 + y^4 - x/3"));
+  const FilteredFunction<2> f(written::polynomial<2>("x^5 y - 2 x^2 + y^4 - x/3"));
   Kernel kernel;
   const double tiny = 0x1p-1000;
-  TiledPolynomial tiled(f, {{-1, -1}, {1, 1}}, kernel);
+  TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
   Tile tile;
   for (const int bits : {53, 106}) {
     tiled.expand({{-tiny, 0}, {tiny, tiny}}, bits, &tile);

@@ -41,9 +41,9 @@ TEST(CurvesText, NamesAreKeptOrNumbered) {
       "a.b-c_3: x");
   ASSERT_EQ(file.curves.size(), 3U);
   EXPECT_EQ(file.curves[0].name, "circle");
-  EXPECT_EQ(file.curves[0].polynomial, kX * kX + kY * kY - constant(1));
+  EXPECT_EQ(file.curves[0].function.polynomial(), kX * kX + kY * kY - constant(1));
   EXPECT_EQ(file.curves[1].name, "c1");
-  EXPECT_EQ(file.curves[1].polynomial, kY - kX);
+  EXPECT_EQ(file.curves[1].function.polynomial(), kY - kX);
   EXPECT_EQ(file.curves[2].name, "a.b-c_3");
   ASSERT_TRUE(file.region);
   EXPECT_EQ(file.region->corners[0], (RationalPoint<2>{-2, Rational(-1, 2)}));
@@ -141,9 +141,9 @@ TEST(CurvesJson, HasExpressionsTermsAndExactNumbers) {
                {"terms": [[0, 1, "1"], [3, 0, "-2/3"], [0, 0, 0.1], [0, 1, 1e1]]}]})");
   ASSERT_EQ(file.curves.size(), 2U);
   EXPECT_EQ(file.curves[0].name, "circle");
-  EXPECT_EQ(file.curves[0].polynomial, kX * kX + kY * kY - constant(1));
+  EXPECT_EQ(file.curves[0].function.polynomial(), kX * kX + kY * kY - constant(1));
   EXPECT_EQ(file.curves[1].name, "c1");
-  EXPECT_EQ(file.curves[1].polynomial,
+  EXPECT_EQ(file.curves[1].function.polynomial(),
             kY * constant(11) - kX.power(3) * constant(2, 3) + constant(1, 10));
   ASSERT_TRUE(file.region);
   EXPECT_EQ(file.region->corners[0], (RationalPoint<2>{-1, Rational(-1, 3)}));

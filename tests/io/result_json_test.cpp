@@ -139,14 +139,14 @@ void expect_equal(const Encasement& a, const Encasement& b) {
   ASSERT_EQ(a.input.size(), b.input.size());
   for (std::size_t k = 0; k < a.input.size(); ++k) {
     EXPECT_EQ(a.input[k].name, b.input[k].name);
-    EXPECT_EQ(a.input[k].polynomial, b.input[k].polynomial);
+    EXPECT_EQ(a.input[k].function, b.input[k].function);
   }
   EXPECT_EQ(a.perturbation, b.perturbation);
   EXPECT_EQ(a.seed, b.seed);
   ASSERT_EQ(a.curves.size(), b.curves.size());
   for (std::size_t k = 0; k < a.curves.size(); ++k) {
     EXPECT_EQ(a.curves[k].name, b.curves[k].name);
-    EXPECT_EQ(a.curves[k].polynomial, b.curves[k].polynomial);
+    EXPECT_EQ(a.curves[k].function, b.curves[k].function);
     EXPECT_EQ(a.curves[k].sources, b.curves[k].sources);
   }
   EXPECT_EQ(a.region.corners, b.region.corners);

@@ -95,7 +95,8 @@ LinePlot cgal_in_squares(Request request) {
       request, "CGAL in squares around a crossing", std::min(kHighestDegree, request.cgal_degrees),
       {2, 1, 0.5, 0.25}, [](int degree, std::uint64_t seed, const Region& square) {
         const auto pair = random_pair(degree, seed);
-        return run_cgal_in_box(pair[0].polynomial, pair[1].polynomial, square.bounding_box())
+        return run_cgal_in_box(pair[0].function.polynomial(), pair[1].function.polynomial(),
+                               square.bounding_box())
             .total();
       });
 }

@@ -239,7 +239,7 @@ Table arrangements_table(const Request& request) {
                            kMilli * f.encasing, kMilli * f.arranging};
     if (beside_cgal) {
       std::vector<Polynomial<2>> polynomials;
-      for (const NamedCurve& curve : curves) polynomials.push_back(curve.polynomial);
+      for (const NamedCurve& curve : curves) polynomials.push_back(curve.function.polynomial());
       const CgalArrangement theirs = cgal_arrangement(polynomials, true);
       const double ours = f.encasing + f.arranging,
                    all = theirs.seconds + theirs.coordinate_seconds;

@@ -22,22 +22,24 @@ void measure_isolation(const std::vector<NamedCurve>& pair, const Repetitions& r
                        PairFigures* figures) {
   const Box<2> box = unit_region().bounding_box();
   const SubdivisionLimits limits;
-  const auto isolate = [&](const FilteredPolynomial<2>& f, const FilteredPolynomial<2>& g) {
+  const auto isolate = [&](const FilteredFunction<2>& f, const FilteredFunction<2>& g) {
     Kernel kernel;
     return isolate_roots<2>({&f, &g}, box, {}, limits, kernel).roots.size();
   };
   figures->isolation_with_setup = time_of(repetitions, [&] {
-    const FilteredPolynomial<2> f(pair[0].polynomial), g(pair[1].polynomial);
+    const FilteredFunction<2> f(pair[0].function.polynomial()), g(pair[1].function.polynomial());
     isolate(f, g);
   });
-  const FilteredPolynomial<2> f(pair[0].polynomial), g(pair[1].polynomial);
+  const FilteredFunction<2> f(pair[0].function.polynomial()), g(pair[1].function.polynomial());
   figures->isolation = time_of(repetitions, [&] { isolate(f, g); });
 }
 
 void measure_floor(const std::vector<NamedCurve>& pair, const std::vector<Crossing>& crossings,
                    const Repetitions& repetitions, PairFigures* figures) {
-  const int degree = std::max(pair[0].polynomial.degree(), pair[1].polynomial.degree());
-  const PackedPolynomial f(pair[0].polynomial, degree), g(pair[1].polynomial, degree);
+  const int degree =
+      std::max(pair[0].function.polynomial().degree(), pair[1].function.polynomial().degree());
+  const PackedPolynomial f(pair[0].function.polynomial(), degree),
+      g(pair[1].function.polynomial(), degree);
   std::vector<Point<2>> starts, points;
   for (const Crossing& c : crossings)
     starts.push_back({c.point[0] + kOffset, c.point[1] - kOffset});
@@ -87,9 +89,9 @@ std::vector<NamedCurve> random_pair(int degree, std::uint64_t seed) {
   options.seed = seed;
   std::vector<NamedCurve> pair = random_curves(options);
   for (NamedCurve& curve : pair) {
-    auto terms = curve.polynomial.terms();
+    auto terms = curve.function.polynomial().terms();
     for (auto& term : terms) term.coefficient = Rational(nearest_double(term.coefficient));
-    curve.polynomial = Polynomial<2>::from_terms(std::move(terms));
+    curve.function = Polynomial<2>::from_terms(std::move(terms));
   }
   return pair;
 }
@@ -142,7 +144,9 @@ const CgalFigures& RandomPairs::cgal(int degree, std::uint64_t seed) {
   const Box<2> box = unit_region().bounding_box();
   announce(fmt::format("CGAL, degree {}, seed {}", degree, seed));
   std::vector<CgalFigures> runs;
-  const auto run = [&] { runs.push_back(run_cgal(pair[0].polynomial, pair[1].polynomial, box)); };
+  const auto run = [&] {
+    runs.push_back(run_cgal(pair[0].function.polynomial(), pair[1].function.polynomial(), box));
+  };
   run();
   // A first run that fills caches counts only where it is the only one.
   if (repetitions_.count > 1 || (repetitions_.count == 0 && runs.front().total() < 1)) {

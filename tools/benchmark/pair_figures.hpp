@@ -58,7 +58,7 @@ Stages stages_of(const std::vector<NamedCurve>& curves, const Region& region,
 struct PairFigures {
   std::vector<TimedEncasement> encasements;  ///< one a setting
   double isolation = 0;                      ///< isolate_roots<2>, made ready before
-  double isolation_with_setup = 0;           ///< with the FilteredPolynomials made each time
+  double isolation_with_setup = 0;           ///< with the FilteredFunctions made each time
   double floor = 0;                          ///< four Newton steps at each crossing
   double floor_together = 0;                 ///< the same, eight crossings at a time
   double newton_error = 0;  ///< how far the steps end from a certified crossing, at most

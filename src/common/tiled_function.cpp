@@ -72,7 +72,7 @@ bool tile_serves(const Tile& tile, double dropped) {
 }  // namespace
 
 /// A polynomial in the coordinates of a node of the tree.
-struct TiledPolynomial::Expansion {
+struct TiledFunction::Expansion {
   PairedCoefficients coefficients;
   Point<2> center{}, half{};
   int rows_axis = 0;    ///< 0: the coefficients of a power of x are a row; 1: of y
@@ -86,7 +86,7 @@ struct TiledPolynomial::Expansion {
 
 /// What the expansions of one polynomial share, and the memory of its tiles. Whoever changes it, or
 /// what a node has, holds the mutex.
-struct TiledPolynomial::Workspace {
+struct TiledFunction::Workspace {
   struct Column {
     double center, half;
     PairedCoefficients shifted;  // row j: the coefficients of y^j
@@ -173,12 +173,13 @@ struct TiledPolynomial::Workspace {
   int used = 0, room = 1;  ///< of the last chunk
 };
 
-TiledPolynomial::TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& box, Kernel& kernel)
+TiledFunction::TiledFunction(const FilteredFunction<2>& f, const Box<2>& box, Kernel& kernel)
     : f_(&f), kernel_(&kernel), root_(box), workspace_(std::make_unique<Workspace>(f.degree())) {
   const std::size_t n = static_cast<std::size_t>(f.degree());
   PairedCoefficients& original = workspace_->original;
   const std::size_t stride = static_cast<std::size_t>(original.stride);
-  const double *high = f.coefficients().data(), *low = f.low_coefficients().data();
+  const double* high = f.polynomial().coefficients().data();
+  const double* low = f.polynomial().low_coefficients().data();
   for (std::size_t i = 0; i <= n; ++i) {
     std::copy_n(high + i * (n + 1), n + 1 - i, original.high() + i * stride);
     std::copy_n(low + i * (n + 1), n + 1 - i, original.low() + i * stride);
@@ -187,10 +188,10 @@ TiledPolynomial::TiledPolynomial(const FilteredPolynomial<2>& f, const Box<2>& b
   workspace_->root.center = box.center();
 }
 
-TiledPolynomial::TiledPolynomial(TiledPolynomial&&) noexcept = default;
-TiledPolynomial::~TiledPolynomial() = default;
+TiledFunction::TiledFunction(TiledFunction&&) noexcept = default;
+TiledFunction::~TiledFunction() = default;
 
-const Tile& TiledPolynomial::at(const Point<2>& point) {
+const Tile& TiledFunction::at(const Point<2>& point) {
   Node* node = &workspace_->root;
   for (;;) {
     if (const Tile* tile = node->tile.load(std::memory_order_acquire)) return *tile;
@@ -201,13 +202,13 @@ const Tile& TiledPolynomial::at(const Point<2>& point) {
   }
 }
 
-void TiledPolynomial::expand(const Box<2>& box, int bits, Tile* tile) {
+void TiledFunction::expand(const Box<2>& box, int bits, Tile* tile) {
   std::lock_guard lock(workspace_->mutex);
   make(box, bits, false, tile, &workspace_->local);
 }
 
 /// Gives a node a tile, or children.
-void TiledPolynomial::develop(Node& node) {
+void TiledFunction::develop(Node& node) {
   Workspace& w = *workspace_;
   std::lock_guard lock(w.mutex);
   if (node.tile || node.children) return;  // another thread was first
@@ -233,7 +234,7 @@ void TiledPolynomial::develop(Node& node) {
 }
 
 /// Whether the tile just made serves for the node: then it is kept.
-bool TiledPolynomial::serves(Node& node, Tile& tile, double dropped) {
+bool TiledFunction::serves(Node& node, Tile& tile, double dropped) {
   if (node.depth < kMaxDepth && !tile_serves(tile, dropped)) return false;
   workspace_->keep();
   node.tile.store(&tile, std::memory_order_release);
@@ -243,7 +244,7 @@ bool TiledPolynomial::serves(Node& node, Tile& tile, double dropped) {
 /// Halves an expansion along both axes, for the four children of its node, if their coordinates are
 /// exactly those of quarters. A child that would lose too much gets nothing: it is made from the
 /// coefficients of f if it is asked for.
-void TiledPolynomial::halve(Expansion& parent, Node* children) {
+void TiledFunction::halve(Expansion& parent, Node* children) {
   for (int k = 0; k < 4; ++k)
     if (!is_quarter(children[k].box, k, parent.center, parent.half)) return;
   const int n = f_->degree();
@@ -300,8 +301,8 @@ void TiledPolynomial::halve(Expansion& parent, Node* children) {
 
 /// Makes a tile from the polynomial's coefficients, and the expansion that it comes from (in MPFR
 /// only the coefficients of that). Returns the sum of those that the tile has no room for.
-double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* tile,
-                             Expansion* expansion) {
+double TiledFunction::make(const Box<2>& box, int bits, bool in_tree, Tile* tile,
+                           Expansion* expansion) {
   const int n = f_->degree();
   place(tile, box);
   tile->bits = bits;
@@ -309,7 +310,7 @@ double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* ti
   tile->value_error = precise_error(reach);
   PairedCoefficients& c = expansion->coefficients;
   if (bits > Kernel::kDoubleBits) {
-    const FilteredPolynomial<2>::Taylor taylor = f_->taylor(box, bits, *kernel_);
+    const FilteredPolynomial<2>::Taylor taylor = f_->polynomial().taylor(box, bits, *kernel_);
     std::fill_n(c.memory->x, 8 * PairedCoefficients::size_for(n), 0.0);
     for (std::size_t i = 0, rows = static_cast<std::size_t>(n) + 1; i < rows; ++i)
       std::copy_n(&taylor.coefficients[i * rows], rows - i, c.high() + i * c.stride);
@@ -329,7 +330,7 @@ double TiledPolynomial::make(const Box<2>& box, int bits, bool in_tree, Tile* ti
 }
 
 /// The coefficients of y^j in row j, shifted and scaled to the coordinates of a tile.
-void TiledPolynomial::expand_directly(const Tile& tile, bool in_tree, Expansion* expansion) {
+void TiledFunction::expand_directly(const Tile& tile, bool in_tree, Expansion* expansion) {
   const int n = f_->degree();
   Workspace& w = *workspace_;
   PairedCoefficients c = expansion->coefficients;
@@ -357,16 +358,16 @@ void TiledPolynomial::expand_directly(const Tile& tile, bool in_tree, Expansion*
   shift_and_scale(c, n, tile.center[1], tile.half[1]);
 }
 
-double TiledPolynomial::precise_error(const Point<2>& reach) const {
-  return 0x1.04p-106 * unheld_roundings(f_->degree()) * f_->absolute(reach) +
+double TiledFunction::precise_error(const Point<2>& reach) const {
+  return 0x1.04p-106 * unheld_roundings(f_->degree()) * f_->polynomial().absolute(reach) +
          0x1p-900 * growth(reach, f_->degree());
 }
 
-double TiledPolynomial::value(const Point<2>& point) const {
+double TiledFunction::value(const Point<2>& point) const {
   return precise_value(workspace_->original, f_->degree(), point[0], point[1]);
 }
 
-void TiledPolynomial::values(const Point<2>* points, int count, double* result) const {
+void TiledFunction::values(const Point<2>* points, int count, double* result) const {
   alignas(64) double x[8] = {}, y[8] = {}, all[8];
   for (int k = 0; k < count; ++k) {
     x[k] = points[k][0];

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "common/filtered_polynomial.hpp"
+#include "encase/function.hpp"
+
+namespace encase {
+
+/// What a curve or surface is the zero set of, prepared for the questions that algorithms ask; the
+/// answers are those of what it holds. Values are scaled as those of FilteredPolynomial.
+template <int D>
+class FilteredFunction {
+ public:
+  explicit FilteredFunction(const Function<D>& function)
+      : filtered_(FilteredPolynomial<D>(function.polynomial())) {}
+  explicit FilteredFunction(Polynomial<D> polynomial)
+      : filtered_(FilteredPolynomial<D>(std::move(polynomial))) {}
+
+  bool is_polynomial() const { return std::holds_alternative<FilteredPolynomial<D>>(filtered_); }
+  /// Only of a polynomial.
+  const FilteredPolynomial<D>& polynomial() const {
+    return std::get<FilteredPolynomial<D>>(filtered_);
+  }
+
+  /// The degree of its Bernstein forms: that of a polynomial.
+  int degree() const {
+    return std::visit([](const auto& f) { return f.degree(); }, filtered_);
+  }
+  double scale() const {
+    return std::visit([](const auto& f) { return f.scale(); }, filtered_);
+  }
+  /// As FilteredPolynomial's.
+  void expand(const Box<D>& box, int net_degree, int bits, Kernel& kernel,
+              Bernstein<D>* net) const {
+    std::visit([&](const auto& f) { f.expand(box, net_degree, bits, kernel, net); }, filtered_);
+  }
+  void restrict_to(const SegmentChart& segment, int bits, Kernel& kernel, Bernstein<1>* net) const
+      requires(D == 2) {
+    std::visit([&](const auto& f) { f.restrict_to(segment, bits, kernel, net); }, filtered_);
+  }
+  using Value = typename FilteredPolynomial<D>::Value;
+  Value evaluate(const Point<D>& point, int bits) const {
+    return std::visit([&](const auto& f) { return f.evaluate(point, bits); }, filtered_);
+  }
+  Value evaluate_rounded(const Point<D>& point, const Point<D>& magnitude, int roundings) const {
+    return std::visit(
+        [&](const auto& f) { return f.evaluate_rounded(point, magnitude, roundings); }, filtered_);
+  }
+  double approximate(const Point<D>& point) const {
+    return std::visit([&](const auto& f) { return f.approximate(point); }, filtered_);
+  }
+  Point<D> gradient(const Point<D>& point) const {
+    return std::visit([&](const auto& f) { return f.gradient(point); }, filtered_);
+  }
+  using ValueAndGradient = typename FilteredPolynomial<D>::ValueAndGradient;
+  ValueAndGradient value_and_gradient(const Point<D>& point) const {
+    return std::visit([&](const auto& f) { return f.value_and_gradient(point); }, filtered_);
+  }
+  Jet jet(const Point<D>& point) const requires(D == 2) {
+    return std::visit([&](const auto& f) { return f.jet(point); }, filtered_);
+  }
+  Sign sign_at(const RationalPoint<D>& point, Kernel& kernel) const {
+    return std::visit([&](const auto& f) { return f.sign_at(point, kernel); }, filtered_);
+  }
+
+ private:
+  std::variant<FilteredPolynomial<D>> filtered_;
+};
+
+}  // namespace encase
