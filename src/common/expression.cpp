@@ -163,8 +163,8 @@ Expression Expression::apply(Operation operation, const Expression& operand) {
   if (const Rational* c = operand.constant(); c && fold(operation, *c, *c, &folded))
     return Expression(folded);
   const int size = std::min(operand.size(), std::numeric_limits<int>::max() - 1) + 1;
-  return Expression(std::make_shared<Node>(
-      Node{operation, operand.node_, {}, 0, 0, size, operand.node_->axes}));
+  return Expression(
+      std::make_shared<Node>(Node{operation, operand.node_, {}, 0, 0, size, operand.node_->axes}));
 }
 
 Expression Expression::apply(Operation operation, const Expression& first,
