@@ -7,10 +7,11 @@ set_target_properties(encase_common PROPERTIES EXPORT_NAME common)
 set_target_properties(encase_arrangement PROPERTIES EXPORT_NAME arrangement)
 set_target_properties(encase_verify PROPERTIES EXPORT_NAME verify)
 set_target_properties(encase_2d PROPERTIES EXPORT_NAME 2d)
+set_target_properties(encase_3d PROPERTIES EXPORT_NAME 3d)
 set_target_properties(encase_io PROPERTIES EXPORT_NAME io)
 set_target_properties(encase_core PROPERTIES EXPORT_NAME core)
-install(TARGETS encase_common encase_arrangement encase_verify encase_2d encase_io encase_core EXPORT encase-core
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS encase_common encase_arrangement encase_verify encase_2d encase_3d encase_io
+  encase_core EXPORT encase-core ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT encase-core NAMESPACE encase:: DESTINATION ${ENCASE_PACKAGE_DIR})
 install(DIRECTORY include/encase DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING
   PATTERN "*.hpp" PATTERN "vtk.hpp" EXCLUDE PATTERN "open_mesh.hpp" EXCLUDE)
