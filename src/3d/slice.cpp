@@ -2,9 +2,27 @@
 #include "encase/slice.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "common/expression_program.hpp"
+
 namespace encase {
+
+namespace {
+
+/// The sign of a function that is constant, or Unknown or NoValue; nothing if it has variables.
+std::optional<PointSign> constant_sign(const Function<2>& function, Kernel& kernel) {
+  if (function.is_polynomial()) {
+    if (!function.polynomial().is_constant()) return std::nullopt;
+    return function.polynomial().is_zero() ? PointSign::Zero : PointSign::Positive;
+  }
+  const Expression& f = function.expression();
+  if (f.uses(0) || f.uses(1)) return std::nullopt;
+  return ExpressionProgram<2>(f).sign_at({0, 0}, kernel);
+}
+
+}  // namespace
 
 Result<Slice> slice(const std::vector<NamedSurface>& surfaces, const Polyhedron& region,
                     const std::array<Rational, 4>& plane, const EncaseOptions& options) {
@@ -13,11 +31,16 @@ Result<Slice> slice(const std::vector<NamedSurface>& surfaces, const Polyhedron&
   Slice result{PlaneChart(plane), {}, {}, {}};
   auto polygon = result.chart.restrict(region);
   if (!polygon) return polygon.error();
+  Kernel kernel;
+  kernel.max_bits = options.max_bits;
   std::vector<NamedCurve> curves;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     Function<2> function = result.chart.restrict(surfaces[k].function);
-    if (function.is_polynomial() && function.polynomial().is_constant()) {
-      if (function.polynomial().is_zero()) result.containing.push_back(static_cast<int>(k));
+    if (const auto sign = constant_sign(function, kernel)) {
+      if (*sign == PointSign::Zero) result.containing.push_back(static_cast<int>(k));
+      if (*sign == PointSign::Unknown)
+        return Error{Error::Code::Undecided, "whether surface '" + surfaces[k].name +
+                                                 "' contains the plane cannot be told"};
       continue;
     }
     curves.push_back({surfaces[k].name, std::move(function)});

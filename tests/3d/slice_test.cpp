@@ -75,6 +75,20 @@ TEST(Slice, SurfacesWithoutACurveOnThePlaneAreToldApart) {
   EXPECT_EQ(result.encasement.input[0].name, "sphere");
 }
 
+TEST(Slice, ConstantExpressionsAreToldApartToo) {
+  const Expression x = Expression::variable(0), z = Expression::variable(2);
+  const auto sine = [](const Expression& f) { return Expression::apply(Operation::Sin, f); };
+  const std::vector<NamedSurface> surfaces{{"contains", sine(z) * Expression::pi()},
+                                           {"beside", sine(z + Expression(1))}};
+  const Slice result = certified(surfaces, cube(2), {0, 0, 1, 0});
+  EXPECT_EQ(result.containing, std::vector<int>{0});
+  EXPECT_TRUE(result.surfaces.empty());
+  // sin(pi) is zero, but no arithmetic of intervals proves it.
+  const auto unknown = slice({{"s", sine(z + Expression::pi())}}, cube(2), {0, 0, 1, 0});
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().code, Error::Code::Undecided);
+}
+
 TEST(Slice, WithoutCurvesIsAnEmptyCell) {
   const Slice result = certified({surface("beside", "z-1")}, cube(2), {0, 0, 1, 0});
   EXPECT_EQ(result.encasement.cells.size(), 1u);
