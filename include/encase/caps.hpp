@@ -18,6 +18,10 @@
 /// polynomials, sin, 1/x. docs/caps.md says what is proved, and how.
 namespace encase {
 
+/// A box is cut in four at lo + kCapsCut (hi - lo), in doubles: not quite in the middle, where
+/// symmetric curves like to pass. No curve may pass through a corner of a leaf.
+inline constexpr double kCapsCut = 0x1.0028p-1;
+
 /// What a leaf holds. A curve that is not in a leaf's list is proved to have no point in the
 /// (closed) leaf.
 enum class CapsLabel {
@@ -100,6 +104,8 @@ struct CapsObstacles {
 };
 
 struct CapsResult {
+  static constexpr int kDivided = -1;
+
   CapsClass answer = CapsClass::Undecided;
   double epsilon = 0;
   double delta = 0;  ///< 2 epsilon
@@ -107,8 +113,8 @@ struct CapsResult {
   CapsObstacles obstacles;
   std::vector<NamedCurve> curves;
   Box<2> box;  ///< the root: the smallest with double bounds around the region
-  /// The quadtree in preorder as in encase/cover.hpp, four children as two halvings in y below one
-  /// in x; leaf token k >= 0 names `leaves[k]`.
+  /// The quadtree in preorder: kDivided, then the four children (lower left, upper left, lower
+  /// right, upper right); or k >= 0 for `leaves[k]`.
   std::vector<int> tokens;
   std::vector<CapsLeaf> leaves;
   std::vector<std::vector<int>> curve_sets;  ///< each ascending, all different; the first is empty

@@ -2,10 +2,9 @@
 #include "2d/caps_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
-
-#include "encase/cover.hpp"
 
 namespace encase {
 namespace {
@@ -22,9 +21,16 @@ struct Open {
   std::size_t count = 0;
 };
 
+/// Where a box is cut in four.
+Point<2> cut_of(const Box<2>& box) {
+  Point<2> cut;
+  for (int i = 0; i < 2; ++i) cut[i] = box.lo[i] + kCapsCut * (box.hi[i] - box.lo[i]);
+  return cut;
+}
+
 /// The quarters in the order of a node's children.
 std::array<Box<2>, 4> quarters(const Box<2>& box) {
-  const Point<2> cut = box.center();
+  const Point<2> cut = cut_of(box);
   std::array<Box<2>, 4> parts;
   for (int k = 0; k < 4; ++k)
     for (int i = 0; i < 2; ++i) {
@@ -141,7 +147,7 @@ CapsLabel Subdivider::settle(const Box<2>& box, int curve, const CurveBounds::Lo
 
 /// Whether there are doubles between the sides of a box, and the budget allows it.
 bool Subdivider::can_divide(const Box<2>& box) {
-  const Point<2> cut = box.center();
+  const Point<2> cut = cut_of(box);
   const bool possible = box.lo[0] < cut[0] && cut[0] < box.hi[0] && box.lo[1] < cut[1] &&
                         cut[1] < box.hi[1];
   if (static_cast<std::int64_t>(tree_.nodes.size()) + 4 > options_.max_boxes)
@@ -173,23 +179,15 @@ void Subdivider::end(const Open& open, int depth, CapsLabel label, int axis) {
 }  // namespace
 
 std::vector<int> CapsTree::tokens() const {
-  // Beside nodes, the halvings in y of a node's halves in x: ~(2 * node + half).
   std::vector<int> result, stack{0};
+  result.reserve(nodes.size());
   while (!stack.empty()) {
-    const int top = stack.back();
+    const int node = stack.back();
     stack.pop_back();
-    if (top < 0) {
-      const int node = ~top / 2, half = ~top % 2;
-      result.push_back(cover::kSplitY);
-      stack.push_back(child(node, half, 1));
-      stack.push_back(child(node, half, 0));
-    } else if (is_leaf(top)) {
-      result.push_back(~nodes[static_cast<std::size_t>(top)]);
-    } else {
-      result.push_back(cover::kSplitX);
-      stack.push_back(~(2 * top + 1));
-      stack.push_back(~(2 * top));
-    }
+    const int content = nodes[static_cast<std::size_t>(node)];
+    result.push_back(content < 0 ? ~content : CapsResult::kDivided);
+    if (content >= 0)
+      for (int k = 3; k >= 0; --k) stack.push_back(content + k);
   }
   return result;
 }

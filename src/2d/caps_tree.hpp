@@ -22,7 +22,7 @@ struct CapsTree {
   bool is_leaf(int node) const { return nodes[node] < 0; }
   /// The child towards the upper or lower side along both axes.
   int child(int node, int x, int y) const { return nodes[node] + 2 * x + y; }
-  /// As in encase/cover.hpp.
+  /// As in CapsResult.
   std::vector<int> tokens() const;
 };
 
