@@ -92,7 +92,7 @@ void Subdivider::classify(const Open& open, int depth) {
   for (std::size_t k = open.first; k < open.first + open.count; ++k) {
     const int curve = alive_[k];
     const CurveBounds::Look seen = curves_[static_cast<std::size_t>(curve)].look(open.box);
-    if (seen.sign) continue;
+    if (seen.absent) continue;
     look = seen;
     here_.push_back(curve);
   }
@@ -128,10 +128,8 @@ CapsLabel Subdivider::settle(const Box<2>& box, int curve, const CurveBounds::Lo
       if (sign) met[*sign == Sign::Positive] = true;
       return met[0] && met[1];
     };
-    if (seen.sign) {
-      if (meet(seen.sign)) return CapsLabel::OneCurve;
-      continue;
-    }
+    if (meet(seen.sign)) return CapsLabel::OneCurve;
+    if (seen.absent) continue;
     if (seen.continuous)
       for (const Point<2>& p :
            {part.center(), part.lo, part.hi, {part.lo[0], part.hi[1]}, {part.hi[0], part.lo[1]}})

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
+#include "common/expression_program.hpp"
 #include "common/interval.hpp"
 #include "encase/function.hpp"
 #include "encase/geometry.hpp"
@@ -20,11 +20,12 @@ class CurveBounds {
 
   /// What is known of f on a box.
   struct Look {
+    bool absent = false;  ///< proved: f is zero nowhere on the box
     /// Proved: f has this sign (never Zero) wherever it has a value on the box.
     std::optional<Sign> sign;
     bool continuous = false;  ///< proved: f has a value everywhere on the box and is continuous
     bool changes = false;     ///< proved: f is zero somewhere on the box
-    int graph_axis = -1;      ///< of the slopes on the box, unless the sign is known
+    int graph_axis = -1;      ///< of the slopes on the box, unless it is absent
   };
   Look look(const Box<2>& box);
 
@@ -44,17 +45,8 @@ class CurveBounds {
   std::int64_t evaluations() const { return evaluations_; }
 
  private:
-  struct Range {
-    Interval value;
-    bool continuous;
-  };
-  Range range(const Box<2>& box);
-  void run(const Box<2>& box, bool with_slopes);
-
-  std::vector<Expression::Step> steps_;
-  std::vector<Interval> constants_;
-  std::vector<Interval> value_;
-  std::array<std::vector<Interval>, 2> slope_;
+  ExpressionProgram<2> program_;
+  ExpressionProgram<2>::Workspace<Interval> workspace_;
   std::int64_t evaluations_ = 0;
 };
 

@@ -41,12 +41,12 @@ std::optional<std::vector<Box<2>>> side_roots(CurveBounds& curve, const Box<2>& 
     if (pieces == kMostPieces) return std::nullopt;
     Box<2> piece = stack.back();
     stack.pop_back();
-    const std::optional<Sign> at_lo = curve.sign_at(piece.lo), at_hi = curve.sign_at(piece.hi);
-    if (!at_lo || !at_hi) return std::nullopt;
-    if (curve.look(piece).sign) continue;
+    if (curve.look(piece).absent) continue;
     const CurveBounds::Slopes slopes = curve.slopes(piece);
     const Interval slope = slopes.slope[static_cast<std::size_t>(axis)];
     if (slopes.smooth && (slope.lo > 0 || slope.hi < 0)) {
+      const std::optional<Sign> at_lo = curve.sign_at(piece.lo), at_hi = curve.sign_at(piece.hi);
+      if (!at_lo || !at_hi) return std::nullopt;
       if (*at_lo == *at_hi) continue;
       shrink(curve, axis, slope, *at_lo, &piece);
       roots.push_back(piece);
