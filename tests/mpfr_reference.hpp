@@ -137,6 +137,7 @@ inline Dual binary(Operation operation, const Dual& a, const Dual& b) {
 template <class Point>
 std::optional<Dual> evaluate(const std::vector<Expression::Step>& steps, const Point& point,
                              int axis) {
+  mpfr_clear_flags();
   std::vector<Dual> values;
   for (const Expression::Step& step : steps) {
     Dual result;
@@ -159,6 +160,7 @@ std::optional<Dual> evaluate(const std::vector<Expression::Step>& steps, const P
       return std::nullopt;
     values.push_back(std::move(result));
   }
+  if (mpfr_overflow_p() || mpfr_underflow_p()) return std::nullopt;
   return values.back();
 }
 

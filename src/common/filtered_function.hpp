@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/filtered_expression.hpp"
 #include "common/filtered_polynomial.hpp"
 #include "encase/function.hpp"
 
@@ -14,9 +15,12 @@ namespace encase {
 /// answers are those of what it holds. Values are scaled as those of FilteredPolynomial.
 template <int D>
 class FilteredFunction {
+  using Filtered = std::variant<FilteredPolynomial<D>, FilteredExpression<D>>;
+
  public:
   explicit FilteredFunction(const Function<D>& function)
-      : filtered_(FilteredPolynomial<D>(function.polynomial())) {}
+      : filtered_(function.is_polynomial() ? Filtered(FilteredPolynomial<D>(function.polynomial()))
+                                           : FilteredExpression<D>(function.expression())) {}
   explicit FilteredFunction(Polynomial<D> polynomial)
       : filtered_(FilteredPolynomial<D>(std::move(polynomial))) {}
 
@@ -24,6 +28,10 @@ class FilteredFunction {
   /// Only of a polynomial.
   const FilteredPolynomial<D>& polynomial() const {
     return std::get<FilteredPolynomial<D>>(filtered_);
+  }
+  /// Only of an expression.
+  const FilteredExpression<D>& expression() const {
+    return std::get<FilteredExpression<D>>(filtered_);
   }
 
   /// The degree of its Bernstein forms: that of a polynomial.
@@ -63,12 +71,13 @@ class FilteredFunction {
   Jet jet(const Point<D>& point) const requires(D == 2) {
     return std::visit([&](const auto& f) { return f.jet(point); }, filtered_);
   }
+  /// The exact sign of a polynomial; of an expression Zero means that none was proved.
   Sign sign_at(const RationalPoint<D>& point, Kernel& kernel) const {
     return std::visit([&](const auto& f) { return f.sign_at(point, kernel); }, filtered_);
   }
 
  private:
-  std::variant<FilteredPolynomial<D>> filtered_;
+  Filtered filtered_;
 };
 
 }  // namespace encase

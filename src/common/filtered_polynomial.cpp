@@ -73,54 +73,6 @@ const std::vector<double>& conversion(int n) {
   return tables[n];
 }
 
-/// Turns Taylor coefficients in [-1,1]^K (dense, degree n in every variable, of total degree n)
-/// into a Bernstein net of degree `net_degree` in every variable. `taylor_error` bounds the sum of
-/// the errors of all Taylor coefficients.
-template <int K>
-void to_bernstein(const std::vector<double>& taylor, int n, double taylor_error, int net_degree,
-                  Bernstein<K>* net) {
-  double sum = 0;
-  for (double a : taylor) sum += std::fabs(a);
-  const double radius = 1.0000001 * taylor_error +
-                        gamma(K * (n + 4) + static_cast<int>(taylor.size()) / 64, 53) * sum;
-  net->degree.fill(net_degree);
-  const std::vector<double>& table = conversion(net_degree);
-  const int m = net_degree + 1;
-  thread_local std::vector<double> scratch;
-  net->b = taylor;
-  // From the last variable to the first: [outer: powers][n + 1][inner: already converted].
-  int inner = 1, outer = 1;
-  for (int i = 1; i < K; ++i) outer *= n + 1;
-  for (int axis = K - 1; axis >= 0; --axis) {
-    scratch.assign(static_cast<std::size_t>(outer) * m * inner, 0.0);
-    for (int o = 0; o < outer; ++o) {
-      int used = 0;
-      for (int rest = o; rest > 0; rest /= n + 1) used += rest % (n + 1);
-      for (int k = 0; k <= n - used; ++k) {
-        const double* row = &table[static_cast<std::size_t>(k) * m];
-        const double* from = &net->b[(static_cast<std::size_t>(o) * (n + 1) + k) * inner];
-        double* to = &scratch[static_cast<std::size_t>(o) * m * inner];
-        if (inner == 1) {
-          const double a = *from;
-          for (int j = 0; j < m; ++j) to[j] += row[j] * a;
-        } else {
-          for (int j = 0; j < m; ++j)
-            for (int i = 0; i < inner; ++i) to[j * inner + i] += row[j] * from[i];
-        }
-      }
-    }
-    net->b.swap(scratch);
-    inner *= m;
-    outer /= n + 1;
-  }
-  net->radius = radius;
-  // Far from overflow, or nothing is claimed.
-  if (!std::isfinite(radius) || !(sum < 0x1p900)) {
-    net->b.assign(net->b.size(), 0.0);
-    net->radius = std::numeric_limits<double>::infinity();
-  }
-}
-
 template <class Number>
 Number make_number(int bits) {
   if constexpr (std::is_floating_point_v<Number>)
@@ -172,6 +124,55 @@ std::vector<double> round_all(const std::vector<Number>& values, double* error) 
 }
 
 }  // namespace
+
+template <int K>
+void taylor_to_bernstein(const std::vector<double>& taylor, int n, double taylor_error,
+                         int net_degree, Bernstein<K>* net) {
+  double sum = 0;
+  for (double a : taylor) sum += std::fabs(a);
+  const double radius = 1.0000001 * taylor_error +
+                        gamma(K * (n + 4) + static_cast<int>(taylor.size()) / 64, 53) * sum;
+  net->degree.fill(net_degree);
+  const std::vector<double>& table = conversion(net_degree);
+  const int m = net_degree + 1;
+  thread_local std::vector<double> scratch;
+  net->b = taylor;
+  // From the last variable to the first: [outer: powers][n + 1][inner: already converted].
+  int inner = 1, outer = 1;
+  for (int i = 1; i < K; ++i) outer *= n + 1;
+  for (int axis = K - 1; axis >= 0; --axis) {
+    scratch.assign(static_cast<std::size_t>(outer) * m * inner, 0.0);
+    for (int o = 0; o < outer; ++o) {
+      int used = 0;
+      for (int rest = o; rest > 0; rest /= n + 1) used += rest % (n + 1);
+      for (int k = 0; k <= n - used; ++k) {
+        const double* row = &table[static_cast<std::size_t>(k) * m];
+        const double* from = &net->b[(static_cast<std::size_t>(o) * (n + 1) + k) * inner];
+        double* to = &scratch[static_cast<std::size_t>(o) * m * inner];
+        if (inner == 1) {
+          const double a = *from;
+          for (int j = 0; j < m; ++j) to[j] += row[j] * a;
+        } else {
+          for (int j = 0; j < m; ++j)
+            for (int i = 0; i < inner; ++i) to[j * inner + i] += row[j] * from[i];
+        }
+      }
+    }
+    net->b.swap(scratch);
+    inner *= m;
+    outer /= n + 1;
+  }
+  net->radius = radius;
+  // Far from overflow, or nothing is claimed.
+  if (!std::isfinite(radius) || !(sum < 0x1p900)) {
+    net->b.assign(net->b.size(), 0.0);
+    net->radius = std::numeric_limits<double>::infinity();
+  }
+}
+
+template void taylor_to_bernstein<1>(const std::vector<double>&, int, double, int, Bernstein<1>*);
+template void taylor_to_bernstein<2>(const std::vector<double>&, int, double, int, Bernstein<2>*);
+template void taylor_to_bernstein<3>(const std::vector<double>&, int, double, int, Bernstein<3>*);
 
 template <int D>
 struct FilteredPolynomial<D>::Cache {
@@ -379,7 +380,7 @@ template <int D>
 void FilteredPolynomial<D>::expand(const Box<D>& box, int net_degree, int bits, Kernel& kernel,
                                    Bernstein<D>* net) const {
   const Taylor t = taylor(box, bits, kernel);
-  to_bernstein<D>(t.coefficients, degree_, t.error, net_degree, net);
+  taylor_to_bernstein<D>(t.coefficients, degree_, t.error, net_degree, net);
 }
 
 template <int D>
@@ -471,6 +472,23 @@ double reach_across(const Line& line, double reach) {
          0x1p-1000;
 }
 
+Point<2> SegmentChart::reach() const {
+  // Sums of absolute values of the terms that make up a coordinate on the chart: of m + h s, and of
+  // (from + to) / 2 + (to - from) / 2 (m + h s), where |s| <= 1.
+  const Centered parameter = centered(lo_, hi_);
+  const double extent = (std::fabs(parameter.center) + parameter.half) * (1 + 0x1p-40);
+  Point<2> reach;
+  if (on_line_) {
+    const int p = parameter_axis(line_), q = 1 - p;
+    reach[p] = extent;
+    reach[q] = reach_across(line_, reach[p]);
+  } else {
+    for (int i = 0; i < 2; ++i)
+      reach[i] = 0.5 * (std::fabs(from_[i]) + std::fabs(to_[i])) * (1 + extent) * (1 + 0x1p-40);
+  }
+  return reach;
+}
+
 int SegmentChart::roundings() const {
   // On a line: a p, + c, / b, and two more for each of three rational coefficients that are
   // rounded; between two points: sum or difference, times the middle, sum.
@@ -522,25 +540,17 @@ void SegmentChart::origin_and_direction(std::array<Number, 2>* origin,
   (*direction)[q] = a;
 }
 
+template void SegmentChart::origin_and_direction(std::array<double, 2>*,
+                                                 std::array<double, 2>*) const;
+template void SegmentChart::origin_and_direction(std::array<long double, 2>*,
+                                                 std::array<long double, 2>*) const;
+template void SegmentChart::origin_and_direction(std::array<Mpfr, 2>*, std::array<Mpfr, 2>*) const;
+
 template <int D>
 void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, Kernel& kernel,
                                         Bernstein<1>* net) const requires(D == 2) {
   ++kernel.restrictions;
-  // Sums of absolute values of the terms that make up a coordinate on the chart: of m + h s, and of
-  // (from + to) / 2 + (to - from) / 2 (m + h s), where |s| <= 1.
-  const Centered parameter = centered(segment.lo_, segment.hi_);
-  const double extent = (std::fabs(parameter.center) + parameter.half) * (1 + 0x1p-40);
-  Point<2> reach;
-  if (segment.on_line_) {
-    const Line& line = segment.line_;
-    const int p = parameter_axis(line), q = 1 - p;
-    reach[p] = extent;
-    reach[q] = reach_across(line, reach[p]);
-  } else {
-    for (int i = 0; i < 2; ++i)
-      reach[i] = 0.5 * (std::fabs(segment.from_[i]) + std::fabs(segment.to_[i])) * (1 + extent) *
-                 (1 + 0x1p-40);
-  }
+  const Point<2> reach = segment.reach();
   const int n = degree_ + 1;
   // A term x^i y^j: its coefficient, the Taylor shift of its row (3 i + 1), Horner over the rows (a
   // product and two sums each: 3 j), and those of the i + j factors; i + j <= degree_.
@@ -573,7 +583,7 @@ void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, K
     double error = gamma(roundings, bits) * absolute(reach);
     if constexpr (std::is_floating_point_v<Number>) error += underflow<2>(reach, degree_);
     const std::vector<double> taylor = round_all(total, &error);
-    to_bernstein<1>(taylor, degree_, error, degree_, net);
+    taylor_to_bernstein<1>(taylor, degree_, error, degree_, net);
   };
   with_coefficients(bits, kernel, run);
 }

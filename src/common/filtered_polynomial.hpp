@@ -25,14 +25,15 @@ class SegmentChart {
   /// The part lo <= s <= hi of a segment between two points, or slightly more.
   SegmentChart part(double lo, double hi) const;
 
- private:
-  template <int>
-  friend class FilteredPolynomial;
-  /// Roundings in a coordinate of the origin or direction, at most.
-  int roundings() const;
+  /// The coordinates are origin + direction s; `Number`: double, long double or Mpfr.
   template <class Number>
   void origin_and_direction(std::array<Number, 2>* origin, std::array<Number, 2>* direction) const;
+  /// Roundings in a coordinate of the origin or direction, at most.
+  int roundings() const;
+  /// At least the sums of the absolute values of the terms that make up the coordinates.
+  Point<2> reach() const;
 
+ private:
   Line line_;
   bool on_line_ = false;
   double lo_ = -1, hi_ = 1;  ///< of the line's parameter, or of the segment's s
@@ -43,6 +44,13 @@ class SegmentChart {
 /// line's point with parameter t. Its rounding error is relative to this, also where something
 /// underflows.
 double reach_across(const Line& line, double reach);
+
+/// Turns Taylor coefficients in [-1,1]^K (dense, degree n in every variable, of total degree n)
+/// into a Bernstein net of degree `net_degree` >= n in every variable. `error` bounds the sum of
+/// the errors of all Taylor coefficients, or what the polynomial lacks.
+template <int K>
+void taylor_to_bernstein(const std::vector<double>& taylor, int n, double error, int net_degree,
+                         Bernstein<K>* net);
 
 /// An exact polynomial with what the kernel needs to ask about it quickly: its coefficients as
 /// doubles, and on demand as pairs of doubles, in extended precision and in MPFR. Scaled by a power

@@ -16,9 +16,10 @@ Interval coefficient(const Line& line, int i) {
 /// How many roots lie in the open interval of a net, each simple: none or one, if that is proved.
 enum class Count { None, One, Unknown };
 
-Count count_roots(const Bernstein<1>& net) {
+Count count_roots(const FilteredFunction<2>& f, const Bernstein<1>& net) {
   // Descartes' rule in Bernstein form: no sign variation, no root; one variation, one simple root
-  // in the open interval. The ends must have proved signs: they are the values there.
+  // in the open interval, of a polynomial: what is only close to one has one at least. The ends
+  // must have proved signs: they are the values there.
   const double r = net.radius;
   const auto sign = [r](double b) { return b > r ? 1 : b < -r ? -1 : 0; };
   int last = sign(net.b.front());
@@ -42,7 +43,7 @@ Count count_roots(const Bernstein<1>& net) {
     unknown = 0;
   }
   if (certain && variations == 0) return Count::None;
-  if (certain && variations == 1) return Count::One;
+  if (certain && variations == 1 && f.is_polynomial()) return Count::One;
   // A monotone function has the roots that its ends tell.
   thread_local Bernstein<1> derivative;
   differentiate(net, 0, &derivative);
@@ -141,10 +142,10 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredFunction<
     // A net is valid on just [lo, hi] only if its middle is a double: neighbours must not overlap.
     double middle;
     if (!exact_middle(piece.lo, piece.hi, &middle)) return std::nullopt;
-    Count count = count_roots(piece.net);
+    Count count = count_roots(f, piece.net);
     if (count == Count::Unknown && wants_precision(piece.net)) {
       sharpen(f, line, &piece, kernel, [&](const Bernstein<1>& net) {
-        count = count_roots(net);
+        count = count_roots(f, net);
         return count != Count::Unknown || !wants_precision(net);
       });
     }
@@ -283,7 +284,7 @@ bool at_most_one_root(const FilteredFunction<2>& f, const Line& line, double lo,
   Bernstein<1> derivative;
   sharpen(f, line, &piece, kernel, [&](const Bernstein<1>& net) {
     differentiate(net, 0, &derivative);
-    proved = count_roots(net) == Count::One || sign_on_cube(derivative).has_value();
+    proved = count_roots(f, net) == Count::One || sign_on_cube(derivative).has_value();
     return proved || !drowned(derivative);
   });
   if (proved) kernel.count(piece.bits);
