@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "encase/arrangement.hpp"
+#include "encase/caps.hpp"
 #include "encase/encasement.hpp"
 
 /// The words for enumerators in files and reports.
@@ -41,6 +42,22 @@ inline constexpr Name<Arrangement::Vertex::Kind> kVertexKinds[] = {
     {Arrangement::Vertex::Kind::Crossing, "crossing"},
     {Arrangement::Vertex::Kind::OnBoundary, "on_boundary"},
     {Arrangement::Vertex::Kind::Corner, "corner"}};
+
+inline constexpr Name<CapsClass> kCapsClasses[] = {{CapsClass::Exact, "exact"},
+                                                   {CapsClass::DeltaWeak, "delta_weak"},
+                                                   {CapsClass::Undecided, "undecided"}};
+inline constexpr Name<CapsLabel> kCapsLabels[] = {{CapsLabel::Empty, "empty"},
+                                                  {CapsLabel::OneCurve, "one_curve"},
+                                                  {CapsLabel::Several, "several"},
+                                                  {CapsLabel::Indeterminate, "indeterminate"}};
+inline constexpr Name<CapsVertex::Kind> kCapsVertexKinds[] = {
+    {CapsVertex::Kind::Crossing, "crossing"},
+    {CapsVertex::Kind::Odd, "odd"},
+    {CapsVertex::Kind::Even, "even"},
+    {CapsVertex::Kind::Several, "several"},
+    {CapsVertex::Kind::SelfCrossing, "self_crossing"},
+    {CapsVertex::Kind::Indeterminate, "indeterminate"},
+    {CapsVertex::Kind::Boundary, "boundary"}};
 
 template <class E, std::size_t N>
 const char* name_of(const Name<E> (&names)[N], E value) {

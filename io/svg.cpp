@@ -20,11 +20,6 @@
 namespace encase {
 namespace {
 
-// Okabe and Ito's colours, which people with any colour vision can tell apart, without yellow.
-constexpr std::array<const char*, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
-                                                 "#cc79a7", "#56b4e9", "#e69f00"};
-// More curves than colours: the same colours with other strokes.
-constexpr std::array<const char*, 4> kDashes = {"", "7 3", "2 3", "9 3 2 3"};
 // Faces: light enough for the curves' colours.
 constexpr std::array<const char*, 8> kTints = {"#fbe8c8", "#d6e8f5", "#e2f0d9", "#f6dde6",
                                                "#e6e0f2", "#fdf6c9", "#d5efec", "#ececec"};
@@ -33,10 +28,6 @@ constexpr const char* kUndecided = "#7b2cbf";
 constexpr double kRing = 7;         ///< radius of a ring around what is small
 constexpr double kVisible = 8;      ///< an extent that needs no ring
 constexpr double kTolerance = 0.1;  ///< pixels between a curve and what is drawn
-constexpr double kLegendRow = 20;
-
-const char* colour(int curve) { return kColours[curve % kColours.size()]; }
-const char* dash(int curve) { return kDashes[curve / kColours.size() % kDashes.size()]; }
 
 class Picture {
  public:
@@ -69,19 +60,14 @@ class Picture {
     draw_crossings();
     draw_unresolved();
     if (options_.labels && arrangement_) draw_labels();
-    if (options_.axes) draw_axes();
-    if (options_.legend) draw_legend();
+    if (options_.axes) out_ += axes(frame_);
+    if (options_.legend) out_ += legend(legend_rows_, frame_);
     out_ += "</svg>\n";
     return std::move(out_);
   }
 
  private:
-  // What the legend shows, in its order, with the room each entry takes.
-  struct Entry {
-    std::string mark;  ///< drawn with its middle at (0, 0), 24 pixels wide
-    std::string text;
-    double width = 0;
-  };
+  using Entry = LegendEntry;
 
   template <class... Args>
   void add(fmt::format_string<Args...> format, Args&&... args) {
@@ -89,37 +75,11 @@ class Picture {
   }
 
   void lay_out() {
-    View& v = view_;
-    v.box = e_.region_used.bounding_box();
-    double w = v.box.width(0), h = v.box.width(1);
-    if (!(w > 0)) w = 1;
-    if (!(h > 0)) h = 1;
-    const double size = std::max(options_.size, 50);
-    v.width = w >= h ? size : std::max(size * (w / h), size / 12);
-    v.height = h >= w ? size : std::max(size * (h / w), size / 12);
-    v.scale_x = v.width / w;
-    v.scale_y = v.height / h;
-    v.left = v.top = 8;
-    double right = 8, bottom = 8;
-    if (options_.axes) {
-      x_ticks_ = make_ticks(v.box.lo[0], v.box.hi[0], v.width);
-      y_ticks_ = make_ticks(v.box.lo[1], v.box.hi[1], v.height);
-      int widest = 1;
-      for (const std::string& text : y_ticks_.texts) widest = std::max(widest, letters(text));
-      v.left = 18 + kLetter * widest;
-      right = 18;
-      bottom = 30;
-      if (!x_ticks_.texts.empty()) {
-        v.left = std::max(v.left, 4 + 0.5 * kLetter * letters(x_ticks_.texts.front()));
-        right = std::max(right, 4 + 0.5 * kLetter * letters(x_ticks_.texts.back()));
-      }
-    }
-    width_ = v.left + v.width + right;
+    frame_ = Frame(e_.region_used.bounding_box(), options_.size, options_.axes);
     if (options_.legend) {
       make_legend();
-      v.top = 14 + kLegendRow * static_cast<double>(legend_rows_.size());
+      frame_.add_legend(legend_rows_);
     }
-    height_ = v.top + v.height + bottom;
     // Where cells are crowded, their outlines must not fill the picture.
     std::vector<double> extents;
     for (const Cell& cell : e_.cells) extents.push_back(view_.extent(bounds(cell)));
@@ -142,7 +102,7 @@ class Picture {
     add("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
         "{1}\" "
         "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{2}\">\n",
-        pixels(width_), pixels(height_), pixels(kFont));
+        pixels(frame_.width()), pixels(frame_.height()), pixels(kFont));
     std::string names;
     for (const Curve& curve : e_.curves) names += (names.empty() ? "" : ", ") + curve.name;
     add("<title>{}</title>\n", escaped("Encasement of " + names));
@@ -414,29 +374,6 @@ class Picture {
     add("</g>\n");
   }
 
-  void draw_axes() {
-    const View& v = view_;
-    const double bottom = v.top + v.height;
-    add("<g id=\"axes\" fill=\"#333\" stroke=\"none\">\n");
-    // The frame of a region that is not a rectangle is only a reference.
-    add("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#bbb\" "
-        "stroke-width=\"0.6\"/>\n",
-        pixels(v.left), pixels(v.top), pixels(v.width), pixels(v.height));
-    std::string marks;
-    for (const double value : x_ticks_.values)
-      marks += "M" + pixels(v.x(value)) + " " + pixels(bottom) + "v5";
-    for (const double value : y_ticks_.values)
-      marks += "M" + pixels(v.left) + " " + pixels(v.y(value)) + "h-5";
-    add("<path fill=\"none\" stroke=\"#444\" stroke-width=\"0.8\" d=\"{}\"/>\n", marks);
-    for (std::size_t k = 0; k < x_ticks_.values.size(); ++k)
-      add("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
-          pixels(v.x(x_ticks_.values[k])), pixels(bottom + 19), x_ticks_.texts[k]);
-    for (std::size_t k = 0; k < y_ticks_.values.size(); ++k)
-      add("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n", pixels(v.left - 9),
-          pixels(v.y(y_ticks_.values[k]) + 4.2), y_ticks_.texts[k]);
-    add("</g>\n");
-  }
-
   static std::string swatch(const std::string& fill, const std::string& outline) {
     return fmt::format(
         "<rect x=\"-9\" y=\"-6\" width=\"18\" height=\"12\" {} stroke=\"{}\" "
@@ -492,51 +429,20 @@ class Picture {
     if (any_state(CellState::Undecided) || !e_.undecided.empty())
       entries.push_back({swatch("fill=\"#efe7f7\"", kUndecided), "undecided"});
 
-    const double room = width_ - view_.left - 8;
-    double used = 0;
-    for (Entry& entry : entries) {
-      entry.width = 24 + 7 + kLetter * letters(entry.text) + 20;
-      if (legend_rows_.empty() || used + entry.width - 20 > room) {
-        legend_rows_.emplace_back();
-        used = 0;
-      }
-      used += entry.width;
-      legend_rows_.back().push_back(std::move(entry));
-    }
-    // A name wider than the picture.
-    for (const auto& row : legend_rows_)
-      for (const Entry& entry : row) width_ = std::max(width_, view_.left + entry.width);
-  }
-
-  void draw_legend() {
-    add("<g id=\"legend\" fill=\"#222\">\n");
-    double y = 15;
-    for (const auto& row : legend_rows_) {
-      double x = view_.left;
-      for (const Entry& entry : row) {
-        if (!entry.mark.empty())
-          add("<g transform=\"translate({} {})\">{}</g>\n", pixels(x + 12), pixels(y), entry.mark);
-        add("<text x=\"{}\" y=\"{}\">{}</text>\n", pixels(x + 31), pixels(y + 4.2),
-            escaped(entry.text));
-        x += entry.width;
-      }
-      y += kLegendRow;
-    }
-    add("</g>\n");
+    legend_rows_ = legend_rows(std::move(entries), frame_.width() - view_.left - 8);
   }
 
   const Encasement& e_;
   SvgOptions options_;
   std::optional<Arrangement> arrangement_;  ///< where faces are drawn or labelled
   std::vector<Polyline> edges_;             ///< of the arrangement
-  View view_;
-  double width_ = 0, height_ = 0;
+  Frame frame_;
+  const View& view_ = frame_.view;
   double cell_stroke_ = 0.7;
   bool crowded_ = false;
   bool hatched_ = false;
   std::string region_;  ///< path of the region
   std::vector<std::pair<Point<2>, const char*>> rings_;
-  Ticks x_ticks_, y_ticks_;
   std::vector<std::vector<Entry>> legend_rows_;
   std::string out_;
 };

@@ -3,10 +3,20 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace encase {
 namespace {
+
+// Okabe and Ito's colours, which people with any colour vision can tell apart, without yellow.
+constexpr std::array<const char*, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
+                                                 "#cc79a7", "#56b4e9", "#e69f00"};
+// More curves than colours: the same colours with other strokes.
+constexpr std::array<const char*, 4> kDashes = {"", "7 3", "2 3", "9 3 2 3"};
+constexpr double kLegendRow = 20;
 
 bool continues_letter(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
@@ -84,5 +94,105 @@ Ticks make_ticks(double lo, double hi, double length) {
   }
   return ticks;
 }
+
+Frame::Frame(const Box<2>& box, int wanted_size, bool with_axes) {
+  View& v = view;
+  v.box = box;
+  double w = v.box.width(0), h = v.box.width(1);
+  if (!(w > 0)) w = 1;
+  if (!(h > 0)) h = 1;
+  const double size = std::max(wanted_size, 50);
+  v.width = w >= h ? size : std::max(size * (w / h), size / 12);
+  v.height = h >= w ? size : std::max(size * (h / w), size / 12);
+  v.scale_x = v.width / w;
+  v.scale_y = v.height / h;
+  v.left = v.top = 8;
+  if (!with_axes) return;
+  x_ticks = make_ticks(v.box.lo[0], v.box.hi[0], v.width);
+  y_ticks = make_ticks(v.box.lo[1], v.box.hi[1], v.height);
+  int widest = 1;
+  for (const std::string& text : y_ticks.texts) widest = std::max(widest, letters(text));
+  v.left = 18 + kLetter * widest;
+  right = 18;
+  bottom = 30;
+  if (!x_ticks.texts.empty()) {
+    v.left = std::max(v.left, 4 + 0.5 * kLetter * letters(x_ticks.texts.front()));
+    right = std::max(right, 4 + 0.5 * kLetter * letters(x_ticks.texts.back()));
+  }
+}
+
+void Frame::add_legend(const std::vector<std::vector<LegendEntry>>& rows) {
+  view.top = 14 + kLegendRow * static_cast<double>(rows.size());
+  // A name wider than the picture.
+  for (const auto& row : rows)
+    for (const LegendEntry& entry : row)
+      least_width = std::max(least_width, view.left + entry.width);
+}
+
+std::string axes(const Frame& frame) {
+  const View& v = frame.view;
+  const double bottom = v.top + v.height;
+  std::string out;
+  const auto add = std::back_inserter(out);
+  out += "<g id=\"axes\" fill=\"#333\" stroke=\"none\">\n";
+  // The frame of a region that is not a rectangle is only a reference.
+  fmt::format_to(add,
+                 "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" "
+                 "stroke=\"#bbb\" stroke-width=\"0.6\"/>\n",
+                 pixels(v.left), pixels(v.top), pixels(v.width), pixels(v.height));
+  std::string marks;
+  for (const double value : frame.x_ticks.values)
+    marks += "M" + pixels(v.x(value)) + " " + pixels(bottom) + "v5";
+  for (const double value : frame.y_ticks.values)
+    marks += "M" + pixels(v.left) + " " + pixels(v.y(value)) + "h-5";
+  fmt::format_to(add, "<path fill=\"none\" stroke=\"#444\" stroke-width=\"0.8\" d=\"{}\"/>\n",
+                 marks);
+  for (std::size_t k = 0; k < frame.x_ticks.values.size(); ++k)
+    fmt::format_to(add, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
+                   pixels(v.x(frame.x_ticks.values[k])), pixels(bottom + 19),
+                   frame.x_ticks.texts[k]);
+  for (std::size_t k = 0; k < frame.y_ticks.values.size(); ++k)
+    fmt::format_to(add, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n",
+                   pixels(v.left - 9), pixels(v.y(frame.y_ticks.values[k]) + 4.2),
+                   frame.y_ticks.texts[k]);
+  return out + "</g>\n";
+}
+
+std::vector<std::vector<LegendEntry>> legend_rows(std::vector<LegendEntry> entries, double room) {
+  std::vector<std::vector<LegendEntry>> rows;
+  double used = 0;
+  for (LegendEntry& entry : entries) {
+    entry.width = 24 + 7 + kLetter * letters(entry.text) + 20;
+    if (rows.empty() || used + entry.width - 20 > room) {
+      rows.emplace_back();
+      used = 0;
+    }
+    used += entry.width;
+    rows.back().push_back(std::move(entry));
+  }
+  return rows;
+}
+
+std::string legend(const std::vector<std::vector<LegendEntry>>& rows, const Frame& frame) {
+  std::string out = "<g id=\"legend\" fill=\"#222\">\n";
+  const auto add = std::back_inserter(out);
+  double y = 15;
+  for (const auto& row : rows) {
+    double x = frame.view.left;
+    for (const LegendEntry& entry : row) {
+      if (!entry.mark.empty())
+        fmt::format_to(add, "<g transform=\"translate({} {})\">{}</g>\n", pixels(x + 12), pixels(y),
+                       entry.mark);
+      fmt::format_to(add, "<text x=\"{}\" y=\"{}\">{}</text>\n", pixels(x + 31), pixels(y + 4.2),
+                     escaped(entry.text));
+      x += entry.width;
+    }
+    y += kLegendRow;
+  }
+  return out + "</g>\n";
+}
+
+const char* colour(int curve) { return kColours[curve % kColours.size()]; }
+const char* dash(int curve) { return kDashes[curve / kColours.size() % kDashes.size()]; }
 
 }  // namespace encase

@@ -72,4 +72,40 @@ struct View {
   Point<2> center(const Box<2>& b) const { return {x(b.center()[0]), y(b.center()[1])}; }
 };
 
+/// The picture of a box, with room around it: for axes, if there are any, and for a legend above.
+struct Frame {
+  Frame() = default;
+  /// `size`: the length of the box' longer side in pixels.
+  Frame(const Box<2>& box, int size, bool with_axes);
+  void add_legend(const std::vector<std::vector<struct LegendEntry>>& rows);
+  double width() const { return std::max(least_width, view.left + view.width + right); }
+  double height() const { return view.top + view.height + bottom; }
+
+  View view;
+  double right = 8, bottom = 8;
+  double least_width = 0;  ///< of the picture: a legend may be wider than the box
+  Ticks x_ticks, y_ticks;
+};
+
+/// The axes as an SVG group.
+std::string axes(const Frame& frame);
+
+/// What a legend shows.
+struct LegendEntry {
+  std::string mark;  ///< drawn with its middle at (0, 0), 24 pixels wide
+  std::string text;
+  double width = 0;  ///< the room it takes
+};
+
+/// In rows of the given width.
+std::vector<std::vector<LegendEntry>> legend_rows(std::vector<LegendEntry> entries, double room);
+
+/// The legend as an SVG group.
+std::string legend(const std::vector<std::vector<LegendEntry>>& rows, const Frame& frame);
+
+/// The colour of a curve, and the dashes of its stroke ("" for none): with more curves than colours
+/// the same colours with other strokes.
+const char* colour(int curve);
+const char* dash(int curve);
+
 }  // namespace encase

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "common/parallel.hpp"
+#include "curves_input.hpp"
 #include "encase/arrangement.hpp"
 #include "encase/curves_file.hpp"
 #include "encase/result_json.hpp"
@@ -107,22 +108,10 @@ Result<Input> read_onto(const CurvesRequest& r, std::vector<NamedCurve> curves) 
 }
 
 Result<Input> read(const CurvesRequest& r) {
-  std::string lines;
-  for (const std::string& expression : r.expressions) lines += expression + "\n";
-  auto file = r.expressions.empty() ? load_curves(r.file) : read_curves(lines, "-e");
-  if (!file) return file.error();
-  if (!r.onto.empty()) return read_onto(r, std::move(file.value().curves));
-  std::optional<Region> region = file.value().region;
-  if (!r.region.empty()) {
-    auto parsed = parse_region(r.region, "--region");
-    if (!parsed) return parsed.error();
-    region = std::move(parsed).value();
-  }
-  if (!region)
-    return bad_input(
-        "no region is given: add a line 'region: xmin xmax ymin ymax' to the file, or "
-        "--region \"xmin xmax ymin ymax\"");
-  return Input{std::nullopt, std::move(file.value().curves), *std::move(region)};
+  auto input = read_curves_input(r.file, r.expressions, r.region, r.onto.empty());
+  if (!input) return input.error();
+  if (!r.onto.empty()) return read_onto(r, std::move(input.value().curves));
+  return Input{std::nullopt, std::move(input.value().curves), *std::move(input.value().region)};
 }
 
 Status write_svg(const CurvesRequest& r, const Encasement& encasement) {

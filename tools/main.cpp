@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "caps.hpp"
 #include "check.hpp"
 #include "curves.hpp"
 #include "encase/version.hpp"
@@ -93,6 +94,42 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
       std::string(kExitCodes));
 }
 
+void add_caps(CLI::App& app, encase::CapsRequest& r) {
+  CLI::App* c = app.add_subcommand(
+      "caps", "The arrangement of curves by a quadtree of a given depth (CAPS), also of curves "
+              "with an inclusion function only");
+  c->add_option("FILE", r.file, "curves and region, as text or JSON; - is standard input");
+  c->add_option("-e", r.expressions, "a curve, instead of FILE: an expression or lhs = rhs")
+      ->type_name("EXPR")
+      ->expected(1)
+      ->take_all();
+  c->add_option("--epsilon", r.options.epsilon, "divide boxes until they are no wider than this")
+      ->type_name("E")
+      ->capture_default_str();
+  c->add_option("--region", r.region, "\"xmin xmax ymin ymax\"; overrides the file's")
+      ->type_name("REGION");
+  c->add_flag("--self-crossings", r.options.self_crossings,
+              "divide also where one curve may cross itself: for an exact answer");
+  c->add_option("--json", r.json, "write the result: the quadtree, its regions, the graph")
+      ->type_name("FILE");
+  c->add_option("--svg", r.svg, "write a picture")->type_name("FILE");
+  c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");
+  c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
+  c->add_option("--max-boxes", r.options.max_boxes, "stop at so many nodes of the quadtree")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  c->add_option("--max-seconds", r.options.max_seconds, "stop after so much CPU time")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  c->add_flag("-q", r.quiet, "print no report");
+  c->add_flag("-v", r.verbose, "report what each step did");
+  c->footer(
+      "Exit codes: 0 exact (proved), 1 usage or bad input, 2 files, 3 delta-weak only, 4 a budget\n"
+      "ran out, 5 internal error.");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -104,6 +141,9 @@ int main(int argc, char** argv) {
 
   CurvesRequest curves;
   add_curves(app, curves);
+
+  CapsRequest caps;
+  add_caps(app, caps);
 
   CheckRequest proof;
   CLI::App* check = app.add_subcommand("check", "Prove a result again from its own facts");
@@ -129,6 +169,7 @@ int main(int argc, char** argv) {
   try {
     if (*check) return run_check(proof);
     if (*generate) return run_random(random);
+    if (app.got_subcommand("caps")) return run_caps(caps);
     return run_curves(curves);
   } catch (const std::bad_alloc&) {
     return fail({Error::Code::Undecided, "memory ran out"});

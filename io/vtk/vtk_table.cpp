@@ -10,8 +10,7 @@
 
 namespace encase {
 
-std::vector<std::pair<const char*, std::vector<std::string>>> field_data(
-    const Encasement& encasement) {
+FieldData field_data(const Encasement& encasement) {
   std::vector<std::string> input;
   for (const NamedCurve& curve : encasement.input)
     input.push_back(curve.name + ": " + curve.function.polynomial().to_string());
@@ -20,14 +19,14 @@ std::vector<std::pair<const char*, std::vector<std::string>>> field_data(
           {"version", {std::string("encase ") + kVersion}}};
 }
 
-vtkPolyData* VtkTable::finish(const Encasement& encasement, bool of_points) {
+vtkPolyData* VtkTable::finish(const FieldData& about, bool of_points) {
   data_->SetVerts(vertices_);
   data_->SetLines(lines_);
   data_->SetPolys(polygons_);
   for (vtkAbstractArray* array : arrays_)
     (of_points ? static_cast<vtkFieldData*>(data_->GetPointData()) : data_->GetCellData())
         ->AddArray(array);
-  for (const auto& [name, values] : field_data(encasement)) {
+  for (const auto& [name, values] : about) {
     vtkNew<vtkStringArray> array;
     array->SetName(name);
     for (const std::string& value : values) array->InsertNextValue(value.c_str());

@@ -21,8 +21,8 @@
 namespace encase {
 
 /// What every file says about the result as a whole: names and values.
-std::vector<std::pair<const char*, std::vector<std::string>>> field_data(
-    const Encasement& encasement);
+using FieldData = std::vector<std::pair<const char*, std::vector<std::string>>>;
+FieldData field_data(const Encasement& encasement);
 
 /// A data set with attributes for each of its points or cells, filled row by row.
 class VtkTable {
@@ -53,7 +53,10 @@ class VtkTable {
   vtkStringArray* strings(const std::string& name) { return add<vtkStringArray>(name); }
 
   /// The data set; attributes belong to its points if `of_points`, else to its cells.
-  vtkPolyData* finish(const Encasement& encasement, bool of_points);
+  vtkPolyData* finish(const FieldData& field_data, bool of_points);
+  vtkPolyData* finish(const Encasement& encasement, bool of_points) {
+    return finish(field_data(encasement), of_points);
+  }
 
  private:
   vtkIdType point(const Point<2>& p) { return points_->InsertNextPoint(p[0], p[1], 0); }

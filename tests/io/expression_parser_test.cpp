@@ -11,7 +11,7 @@ namespace {
 
 template <int D = 2>
 Polynomial<D> parsed(const std::string& text) {
-  const auto result = parse_expression<D>(text);
+  const auto result = parse_polynomial<D>(text);
   if (const auto* e = std::get_if<SyntaxError>(&result)) {
     ADD_FAILURE() << text << ": " << e->message;
     return {};
@@ -20,7 +20,7 @@ Polynomial<D> parsed(const std::string& text) {
 }
 
 SyntaxError error_in(const std::string& text) {
-  const auto result = parse_expression<2>(text);
+  const auto result = parse_polynomial<2>(text);
   if (const auto* e = std::get_if<SyntaxError>(&result)) return *e;
   ADD_FAILURE() << text << " is " << std::get<Polynomial<2>>(result).to_string();
   return {};

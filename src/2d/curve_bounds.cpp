@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "2d/curve_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace encase {
+namespace {
+
+double magnitude(const Interval& a) { return std::max(std::fabs(a.lo), std::fabs(a.hi)); }
+
+}  // namespace
+
+CurveBounds::CurveBounds(const Function<2>& function)
+    : program_(function.is_polynomial() ? Expression(function.polynomial())
+                                        : function.expression()) {}
+
+CurveBounds::Slopes CurveBounds::slopes(const Box<2>& box) {
+  ++evaluations_;
+  const auto on_box = program_.value_and_gradient(intervals(box), workspace_);
+  return {{on_box.jet.first(0), on_box.jet.first(1)}, on_box.smooth()};
+}
+
+Interval CurveBounds::value_at(const Point<2>& point) {
+  ++evaluations_;
+  return program_.value(intervals(Box<2>{point, point}), workspace_).range();
+}
+
+std::optional<Sign> CurveBounds::sign_at(const Point<2>& point) {
+  const std::optional<Sign> sign = value_at(point).sign();
+  return sign == Sign::Zero ? std::nullopt : sign;
+}
+
+/// The natural extension, and where that is not enough the mean value form; along an axis along
+/// which f is monotone the ends in place of that (then nothing is lost).
+CurveBounds::Look CurveBounds::look(const Box<2>& box) {
+  ++evaluations_;
+  const auto natural = program_.value(intervals(box), workspace_);
+  Look result;
+  result.continuous = natural.continuous();
+  if (natural.nowhere()) {
+    result.absent = true;
+    return result;
+  }
+  if (natural.range().lo > 0) result.sign = Sign::Positive;
+  if (natural.range().hi < 0) result.sign = Sign::Negative;
+  result.absent = result.sign.has_value();
+  if (result.absent) return result;
+  const Slopes s = slopes(box);
+  if (!s.smooth) return result;
+  result.graph_axis = graph_axis(s);
+  Point<2> low = box.center(), high = low;
+  double spread = 0;
+  for (int i = 0; i < 2; ++i) {
+    if (s.slope[i].lo >= 0 || s.slope[i].hi <= 0) {
+      const bool rises = s.slope[i].lo >= 0;
+      low[i] = rises ? box.lo[i] : box.hi[i];
+      high[i] = rises ? box.hi[i] : box.lo[i];
+    } else {
+      const double half = round_up(std::max(box.hi[i] - low[i], low[i] - box.lo[i]));
+      spread = round_up(spread + round_up(half * magnitude(s.slope[i])));
+    }
+  }
+  const Interval at_low = value_at(low), at_high = low == high ? at_low : value_at(high);
+  if (round_down(at_low.lo - spread) > 0) result.sign = Sign::Positive;
+  if (round_up(at_high.hi + spread) < 0) result.sign = Sign::Negative;
+  result.absent = result.sign.has_value();
+  result.changes = at_low.hi < 0 && at_high.lo > 0;
+  return result;
+}
+
+int graph_axis(const CurveBounds::Slopes& slopes) {
+  if (!slopes.smooth) return -1;
+  const auto steepness = [&](int i) {
+    const Interval& d = slopes.slope[i];
+    return d.lo > 0 ? d.lo : d.hi < 0 ? -d.hi : 0;
+  };
+  const double x = steepness(0), y = steepness(1);
+  if (!(x > 0) && !(y > 0)) return -1;
+  return y >= x ? 0 : 1;
+}
+
+}  // namespace encase
