@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "encase/encasement.hpp"
+#include "encase/slice.hpp"
 
 /// Needs VTK: component `vtk`.
 namespace encase {
@@ -17,5 +19,12 @@ namespace encase {
 /// refer to is complete; those of an earlier run are removed first. Io if a file cannot be written.
 /// Deterministic.
 Status write_vtk(const Encasement& encasement, const std::string& directory, bool history = false);
+
+/// The same of what is on a plane, in the coordinates of space.
+Status write_vtk(const Slice& slice, const std::string& directory, bool history = false);
+
+/// Several of them, each in a directory `slice_000`, `slice_001`, ... of its own, as the time steps
+/// of `slices.pvd`, which appears last.
+Status write_vtk(const std::vector<Slice>& slices, const std::string& directory);
 
 }  // namespace encase

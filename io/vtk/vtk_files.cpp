@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -64,7 +65,7 @@ std::string collection_file(const std::vector<int>& cuts) {
   return out + "  </Collection>\n</VTKFile>\n";
 }
 
-Status write_history(const Encasement& e, const std::string& directory) {
+Status write_history(const Encasement& e, const PlaneChart* chart, const std::string& directory) {
   auto made = AtomicDirectory::create(directory + "/history");
   if (!made) return made.error();
   AtomicDirectory files = std::move(made).value();
@@ -72,27 +73,73 @@ Status write_history(const Encasement& e, const std::string& directory) {
   const std::vector<int> cuts = shown_cuts(static_cast<int>(e.history.size()));
   for (std::size_t k = 0; k < cuts.size(); ++k) {
     VtkTable table;
+    table.place_on(chart);
     if (Status bad = write_data_set(fill_step(e, polygons, cuts[k], &table), files.temporary(),
-                           step_name(static_cast<int>(k)), directory + "/history"))
+                                    step_name(static_cast<int>(k)), directory + "/history"))
       return bad;
   }
   if (Status bad = files.commit()) return bad;
   return write_file(directory + "/history.pvd", collection_file(cuts));
 }
 
-}  // namespace
-
-Status write_vtk(const Encasement& encasement, const std::string& directory, bool history) {
+/// `chart`: of the plane in which the encasement is; none: z = 0.
+Status write_result(const Encasement& encasement, const PlaneChart* chart, FieldData about,
+                    const std::string& directory, bool history) {
   const Result<VtkScene> scene = make_vtk_scene(encasement);
   if (!scene) return scene.error();
   const auto fill = [&](std::size_t k, VtkTable* table) {
+    table->place_on(chart);
     return fill_block(scene.value(), k, table);
   };
   const auto more = [&]() -> Status {
-    return history ? write_history(encasement, directory) : std::nullopt;
+    return history ? write_history(encasement, chart, directory) : std::nullopt;
   };
-  return write_multiblock(directory, field_data(encasement),
-                          {kVtkBlocks.begin(), kVtkBlocks.end()}, fill, more);
+  return write_multiblock(directory, about, {kVtkBlocks.begin(), kVtkBlocks.end()}, fill, more);
+}
+
+/// What is said of a slice: also its plane, as "a b c d".
+FieldData field_data(const Slice& slice) {
+  FieldData about = encase::field_data(slice.encasement);
+  std::string plane;
+  for (const Rational& c : slice.chart.plane()) plane += (plane.empty() ? "" : " ") + c.get_str();
+  about.push_back({"plane", {plane}});
+  return about;
+}
+
+std::string slice_name(std::size_t k) { return fmt::format("slice_{:03}", k); }
+
+std::string series_file(const std::vector<Slice>& slices) {
+  std::string out =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    fmt::format_to(std::back_inserter(out),
+                   "    <DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}/result.vtm\"/>\n",
+                   k, slice_name(k));
+  return out + "  </Collection>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+Status write_vtk(const Encasement& encasement, const std::string& directory, bool history) {
+  return write_result(encasement, nullptr, encase::field_data(encasement), directory, history);
+}
+
+Status write_vtk(const Slice& slice, const std::string& directory, bool history) {
+  return write_result(slice.encasement, &slice.chart, field_data(slice), directory, history);
+}
+
+Status write_vtk(const std::vector<Slice>& slices, const std::string& directory) {
+  std::error_code failure;
+  std::filesystem::create_directory(directory, failure);
+  if (failure)
+    return Error{Error::Code::Io,
+                 "cannot make the directory '" + directory + "': " + failure.message()};
+  std::filesystem::remove(directory + "/slices.pvd", failure);
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    if (Status bad = write_vtk(slices[k], directory + "/" + slice_name(k))) return bad;
+  return write_file(directory + "/slices.pvd", series_file(slices));
 }
 
 }  // namespace encase

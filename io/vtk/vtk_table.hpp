@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "encase/encasement.hpp"
+#include "encase/slice.hpp"
 
 namespace encase {
 
@@ -31,6 +32,9 @@ class VtkTable {
     points_->SetDataTypeToDouble();
     data_->SetPoints(points_);
   }
+
+  /// All points that follow are given in the coordinates of a plane, and lie on it.
+  void place_on(const PlaneChart* chart) { chart_ = chart; }
 
   /// Points for triangles that share them.
   void points(const std::vector<Point<2>>& all) {
@@ -59,7 +63,10 @@ class VtkTable {
   }
 
  private:
-  vtkIdType point(const Point<2>& p) { return points_->InsertNextPoint(p[0], p[1], 0); }
+  vtkIdType point(const Point<2>& p) {
+    const Point<3> at = chart_ ? chart_->lift(p) : Point<3>{p[0], p[1], 0};
+    return points_->InsertNextPoint(at.data());
+  }
   void primitive(vtkCellArray* list, const std::vector<Point<2>>& points) {
     list->InsertNextCell(static_cast<int>(points.size()));
     for (const Point<2>& p : points) list->InsertCellPoint(point(p));
@@ -71,6 +78,7 @@ class VtkTable {
     arrays_.emplace_back(array);
     return array;
   }
+  const PlaneChart* chart_ = nullptr;
   vtkNew<vtkPolyData> data_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkCellArray> vertices_, lines_, polygons_;
