@@ -25,10 +25,7 @@
 namespace encase {
 
 /// What the user wrote.
-struct NamedCurve {
-  std::string name;
-  Function<2> function;
-};
+using NamedCurve = NamedFunction<2>;
 
 /// A curve that is encased: a polynomial is square-free and without a component in common with the
 /// others. A component shared by several input curves is one curve that carries several sources.

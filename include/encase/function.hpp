@@ -33,4 +33,11 @@ class Function {
   std::variant<Polynomial<D>, Expression> function_;
 };
 
+/// A curve or surface as the user wrote it: the zero set of the function.
+template <int D>
+struct NamedFunction {
+  std::string name;
+  Function<D> function;
+};
+
 }  // namespace encase

@@ -12,11 +12,8 @@
 
 namespace encase {
 
-/// What the user wrote: the zero set of the function.
-struct NamedSurface {
-  std::string name;
-  Function<3> function;
-};
+/// What the user wrote.
+using NamedSurface = NamedFunction<3>;
 
 /// Two of the coordinates as coordinates (u, v) of a plane: those across which the plane is least
 /// steep, in the order in which (u, v) turns counter-clockwise seen from where the normal points.
