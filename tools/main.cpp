@@ -14,6 +14,7 @@
 #include "encase/version.hpp"
 #include "output.hpp"
 #include "random_curves.hpp"
+#include "slice.hpp"
 
 namespace {
 
@@ -30,6 +31,28 @@ void add_threads(CLI::App& command, int& threads, const char* meaning) {
       ->type_name("N")
       ->check(CLI::Range(1, kMostThreads))
       ->default_str("all processors");
+}
+
+void add_budgets(CLI::App& command, encase::EncaseOptions& options) {
+  command.add_option("--max-cells", options.max_cells, "stop at so many cells")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      .add_option("--max-seconds", options.max_seconds,
+                  "stop after so much CPU time, of all threads together")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--max-bits", options.max_bits, "the highest precision to try")
+      ->type_name("N")
+      ->check(CLI::Range(53, 1 << 20))
+      ->capture_default_str();
+  command
+      .add_option("--start-bits", options.start_bits, "the precision to start with; 53: doubles")
+      ->type_name("N")
+      ->check(CLI::Range(53, 1 << 20))
+      ->capture_default_str();
 }
 
 void add_curves(CLI::App& app, encase::CurvesRequest& r) {
@@ -64,23 +87,7 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
   c->add_option("--seed", r.options.seed, "of the perturbation")
       ->type_name("N")
       ->capture_default_str();
-  c->add_option("--max-cells", r.options.max_cells, "stop at so many cells")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  c->add_option("--max-seconds", r.options.max_seconds,
-                "stop after so much CPU time, of all threads together")
-      ->type_name("S")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  c->add_option("--max-bits", r.options.max_bits, "the highest precision to try")
-      ->type_name("N")
-      ->check(CLI::Range(53, 1 << 20))
-      ->capture_default_str();
-  c->add_option("--start-bits", r.options.start_bits, "the precision to start with; 53: doubles")
-      ->type_name("N")
-      ->check(CLI::Range(53, 1 << 20))
-      ->capture_default_str();
+  add_budgets(*c, r.options);
   add_threads(*c, r.options.threads,
               "how many may work, of more than two curves; the result is the same for any number");
   c->add_flag("-q", r.quiet, "print no report");
@@ -96,8 +103,9 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
 
 void add_caps(CLI::App& app, encase::CapsRequest& r) {
   CLI::App* c = app.add_subcommand(
-      "caps", "The arrangement of curves by a quadtree of a given depth (CAPS), also of curves "
-              "with an inclusion function only");
+      "caps",
+      "The arrangement of curves by a quadtree of a given depth (CAPS), also of curves "
+      "with an inclusion function only");
   c->add_option("FILE", r.file, "curves and region, as text or JSON; - is standard input");
   c->add_option("-e", r.expressions, "a curve, instead of FILE: an expression or lhs = rhs")
       ->type_name("EXPR")
@@ -130,6 +138,43 @@ void add_caps(CLI::App& app, encase::CapsRequest& r) {
       "ran out, 5 internal error.");
 }
 
+void add_slice(CLI::App& app, encase::SliceRequest& r) {
+  CLI::App* c = app.add_subcommand("slice", "Encase what surfaces have on a plane");
+  c->add_option("FILE", r.file, "surfaces and region, as text or JSON; - is standard input");
+  c->add_option("-e", r.expressions, "a surface, instead of FILE: an expression or lhs = rhs")
+      ->type_name("EXPR")
+      ->expected(1)
+      ->take_all();
+  c->add_option("--plane", r.plane, "\"a b c d\": the plane a x + b y + c z + d = 0")
+      ->type_name("PLANE");
+  c->add_option("--count", r.count, "so many planes parallel to it, evenly through the region")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  c->add_option("--region", r.region,
+                "\"box x0 x1 y0 y1 z0 z1\" or \"halfspaces (a,b,c,d) ...\"; overrides the file's")
+      ->type_name("REGION");
+  c->add_option("--json", r.json, "write the result, everything that proves it included")
+      ->type_name("FILE");
+  c->add_option("--svg", r.svg, "write a picture, in the plane's coordinates")->type_name("FILE");
+  c->add_option("-o", r.vtk_directory,
+                "write VTK files for ParaView, in space; of --count as time steps")
+      ->type_name("DIR");
+  c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
+  c->add_flag("--fast", r.options.fast, "try fewer splitting lines: less time, more cells");
+  c->add_flag("--relaxed", r.options.relaxed, "accept cells with two branches that do not cross");
+  add_budgets(*c, r.options);
+  add_threads(*c, r.options.threads, "how many may work, of more than two curves on a plane");
+  c->add_flag("-q", r.quiet, "print no report");
+  c->add_flag("-v", r.verbose, "report what each step did");
+  c->footer(
+      "FILE has lines `name: expression` or `expression` in x, y, z and `region: box x0 x1 y0 y1 "
+      "z0 "
+      "z1`\n"
+      "or `region: halfspaces (a,b,c,d) ...`, each a x + b y + c z + d <= 0; # starts a "
+      "comment.\n\n" +
+      std::string(kExitCodes));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -144,6 +189,9 @@ int main(int argc, char** argv) {
 
   CapsRequest caps;
   add_caps(app, caps);
+
+  SliceRequest slices;
+  add_slice(app, slices);
 
   CheckRequest proof;
   CLI::App* check = app.add_subcommand("check", "Prove a result again from its own facts");
@@ -170,6 +218,7 @@ int main(int argc, char** argv) {
     if (*check) return run_check(proof);
     if (*generate) return run_random(random);
     if (app.got_subcommand("caps")) return run_caps(caps);
+    if (app.got_subcommand("slice")) return run_slice(slices);
     return run_curves(curves);
   } catch (const std::bad_alloc&) {
     return fail({Error::Code::Undecided, "memory ran out"});

@@ -9,6 +9,7 @@
 #include "encase/function.hpp"
 #include "encase/polyhedron.hpp"
 #include "encase/result.hpp"
+#include "encase/verify.hpp"
 
 namespace encase {
 
@@ -45,19 +46,26 @@ class PlaneChart {
 
 /// What surfaces look like on a plane.
 struct Slice {
+  std::vector<NamedSurface> surfaces;
+  Polyhedron region;
   PlaneChart chart;
   /// Of the curves in which the surfaces meet the plane, in the chart's coordinates; they have the
   /// surfaces' names.
   Encasement encasement;
-  std::vector<int> surfaces;    ///< of every input curve of the encasement, the surface
+  std::vector<int> surface_of;  ///< of every input curve of the encasement
   std::vector<int> containing;  ///< surfaces that contain the whole plane
 };
 
 /// Encases the curves in which surfaces meet a plane, in the part of the polyhedron that lies in
 /// it. A surface whose function is constant on the plane has no curve: it contains the plane or
-/// does not meet it. BadInput if the polyhedron's part has no area, and as `encase`.
+/// does not meet it. BadInput if the polyhedron's part has no area, if a perturbation is asked for,
+/// and as `encase`; Undecided if it cannot be told whether a constant is zero.
 Result<Slice> slice(const std::vector<NamedSurface>& surfaces, const Polyhedron& region,
                     const std::array<Rational, 4>& plane, const EncaseOptions& options = {});
+
+/// Proves again that the encasement is one of what the surfaces have on the plane, and the
+/// encasement itself.
+Verification verify(const Slice& slice, const VerifyOptions& options = {});
 
 /// `count` planes parallel to a x + b y + c z = 0 that cut the polyhedron into slabs of equal
 /// thickness, in the direction of the normal. Requires a normal that is not zero.

@@ -22,20 +22,23 @@ std::optional<PointSign> constant_sign(const Function<2>& function, Kernel& kern
   return ExpressionProgram<2>(f).sign_at({0, 0}, kernel);
 }
 
-}  // namespace
-
-Result<Slice> slice(const std::vector<NamedSurface>& surfaces, const Polyhedron& region,
-                    const std::array<Rational, 4>& plane, const EncaseOptions& options) {
-  if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0)
-    return Error{Error::Code::BadInput, "the plane has no normal: a, b and c are zero"};
-  Slice result{PlaneChart(plane), {}, {}, {}};
-  auto polygon = result.chart.restrict(region);
-  if (!polygon) return polygon.error();
-  Kernel kernel;
-  kernel.max_bits = options.max_bits;
+/// What a plane has of surfaces and of a region.
+struct OnPlane {
+  Region region;
   std::vector<NamedCurve> curves;
+  std::vector<int> surface_of;  ///< of every curve
+  std::vector<int> containing;
+};
+
+Result<OnPlane> restrict(const PlaneChart& chart, const std::vector<NamedSurface>& surfaces,
+                         const Polyhedron& region, int max_bits) {
+  auto polygon = chart.restrict(region);
+  if (!polygon) return polygon.error();
+  OnPlane result{std::move(polygon).value(), {}, {}, {}};
+  Kernel kernel;
+  kernel.max_bits = max_bits;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    Function<2> function = result.chart.restrict(surfaces[k].function);
+    Function<2> function = chart.restrict(surfaces[k].function);
     if (const auto sign = constant_sign(function, kernel)) {
       if (*sign == PointSign::Zero) result.containing.push_back(static_cast<int>(k));
       if (*sign == PointSign::Unknown)
@@ -43,12 +46,56 @@ Result<Slice> slice(const std::vector<NamedSurface>& surfaces, const Polyhedron&
                                                  "' contains the plane cannot be told"};
       continue;
     }
-    curves.push_back({surfaces[k].name, std::move(function)});
-    result.surfaces.push_back(static_cast<int>(k));
+    result.curves.push_back({surfaces[k].name, std::move(function)});
+    result.surface_of.push_back(static_cast<int>(k));
   }
-  auto encasement = encase(curves, polygon.value(), options);
+  return result;
+}
+
+}  // namespace
+
+Result<Slice> slice(const std::vector<NamedSurface>& surfaces, const Polyhedron& region,
+                    const std::array<Rational, 4>& plane, const EncaseOptions& options) {
+  if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0)
+    return Error{Error::Code::BadInput, "the plane has no normal: a, b and c are zero"};
+  if (options.perturbation > 0)
+    return Error{Error::Code::BadInput, "slices are not perturbed: their surfaces would not be"};
+  const PlaneChart chart(plane);
+  auto on_plane = restrict(chart, surfaces, region, options.max_bits);
+  if (!on_plane) return on_plane.error();
+  auto& [polygon, curves, surface_of, containing] = on_plane.value();
+  auto encasement = encase(curves, polygon, options);
   if (!encasement) return encasement.error();
-  result.encasement = std::move(encasement).value();
+  return Slice{surfaces,
+               region,
+               chart,
+               std::move(encasement).value(),
+               std::move(surface_of),
+               std::move(containing)};
+}
+
+Verification verify(const Slice& slice, const VerifyOptions& options) {
+  Verification result = verify(slice.encasement, options);
+  const auto require = [&](bool holds, const char* objection) {
+    if (holds)
+      ++result.claims;
+    else
+      result.objections.emplace_back(objection);
+  };
+  const auto expected = restrict(slice.chart, slice.surfaces, slice.region, options.max_bits);
+  require(expected.ok(), "The plane, the surfaces and the region have no slice.");
+  if (!expected) return result;
+  const auto& [region, curves, surface_of, containing] = expected.value();
+  const Encasement& e = slice.encasement;
+  require(e.region.corners == region.corners && !e.region.plane,
+          "The region of the slice is not the plane's part of the region.");
+  require(
+      slice.surface_of == surface_of && slice.containing == containing,
+      "The surfaces that have a curve on the plane, or contain it, are not those of the slice.");
+  bool same = e.input.size() == curves.size() && e.perturbation == 0;
+  for (std::size_t k = 0; same && k < curves.size(); ++k)
+    same = e.input[k].function == curves[k].function && e.input[k].name == curves[k].name;
+  require(same, "The curves of the slice are not those of the surfaces on the plane.");
   return result;
 }
 

@@ -27,7 +27,7 @@ Slice certified(const std::vector<NamedSurface>& surfaces, const Polyhedron& reg
   auto result = slice(surfaces, region, plane);
   EXPECT_TRUE(result) << result.error().message;
   EXPECT_EQ(result.value().encasement.outcome, Outcome::Certified);
-  const Verification proof = verify(result.value().encasement);
+  const Verification proof = verify(result.value());
   EXPECT_TRUE(proof.ok()) << proof.objections.front();
   return std::move(result).value();
 }
@@ -70,7 +70,7 @@ TEST(Slice, SurfacesWithoutACurveOnThePlaneAreToldApart) {
                                            surface("sphere", "x^2+y^2+z^2-1")};
   const Slice result = certified(surfaces, cube(2), {0, 0, 1, 0});
   EXPECT_EQ(result.containing, std::vector<int>{0});
-  EXPECT_EQ(result.surfaces, std::vector<int>{2});
+  EXPECT_EQ(result.surface_of, std::vector<int>{2});
   ASSERT_EQ(result.encasement.input.size(), 1u);
   EXPECT_EQ(result.encasement.input[0].name, "sphere");
 }
@@ -82,7 +82,7 @@ TEST(Slice, ConstantExpressionsAreToldApartToo) {
                                            {"beside", sine(z + Expression(1))}};
   const Slice result = certified(surfaces, cube(2), {0, 0, 1, 0});
   EXPECT_EQ(result.containing, std::vector<int>{0});
-  EXPECT_TRUE(result.surfaces.empty());
+  EXPECT_TRUE(result.surface_of.empty());
   // sin(pi) is zero, but no arithmetic of intervals proves it.
   const auto unknown = slice({{"s", sine(z + Expression::pi())}}, cube(2), {0, 0, 1, 0});
   ASSERT_FALSE(unknown);
@@ -92,13 +92,35 @@ TEST(Slice, ConstantExpressionsAreToldApartToo) {
 TEST(Slice, WithoutCurvesIsAnEmptyCell) {
   const Slice result = certified({surface("beside", "z-1")}, cube(2), {0, 0, 1, 0});
   EXPECT_EQ(result.encasement.cells.size(), 1u);
-  EXPECT_TRUE(result.surfaces.empty());
+  EXPECT_TRUE(result.surface_of.empty());
+}
+
+TEST(Slice, CheckerObjectsToWhatIsNotOnThePlane) {
+  const Slice good =
+      certified({surface("beside", "z-1"), surface("s", "x^2+y^2+z^2-1")}, cube(2), {0, 0, 1, 0});
+  const auto expect_objection = [&](auto change) {
+    Slice bad = good;
+    change(bad);
+    EXPECT_FALSE(verify(bad).ok());
+  };
+  expect_objection([](Slice& s) { s.chart = PlaneChart({0, 0, 1, Rational(-1, 2)}); });
+  expect_objection([](Slice& s) { s.chart = PlaneChart({0, 0, 1, -1}); });
+  expect_objection([](Slice& s) { s.surfaces[1].function = written::polynomial<3>("x^2+y^2-2"); });
+  expect_objection([](Slice& s) { s.surfaces[0].function = written::polynomial<3>("z"); });
+  expect_objection([](Slice& s) { s.surfaces[1].name = "t"; });
+  expect_objection([](Slice& s) { s.surface_of = {0}; });
+  expect_objection([](Slice& s) { s.containing = {0}; });
+  expect_objection([](Slice& s) { s.region = cube(3); });
+  expect_objection([](Slice& s) { s.encasement.crossings.push_back({}); });
 }
 
 TEST(Slice, BadPlanesAreRefused) {
   const std::vector<NamedSurface> sphere{surface("s", "x^2+y^2+z^2-1")};
   EXPECT_EQ(slice(sphere, cube(2), {0, 0, 0, 1}).error().code, Error::Code::BadInput);
   EXPECT_EQ(slice(sphere, cube(2), {0, 0, 1, 9}).error().code, Error::Code::BadInput);
+  EncaseOptions perturbed;
+  perturbed.perturbation = 1e-8;
+  EXPECT_EQ(slice(sphere, cube(2), {0, 0, 1, 0}, perturbed).error().code, Error::Code::BadInput);
 }
 
 TEST(Slice, ParallelPlanesCutTheRegionEvenly) {
