@@ -19,28 +19,64 @@ namespace {
 
 using Json = nlohmann::json;
 
-Polynomial<2> read_terms(const JsonNode& node) {
+template <int D>
+Polynomial<D> read_terms(const JsonNode& node) {
   auto terms = node.map([](const JsonNode& term) {
-    term.of_size(3);
-    Polynomial<2>::Term read;
-    read.exponent[0] = static_cast<int>(term.item(0).integer(0, kMaxDegree));
-    read.exponent[1] = static_cast<int>(term.item(1).integer(0, kMaxDegree - read.exponent[0]));
-    read.coefficient = term.item(2).rational();
+    term.of_size(D + 1);
+    typename Polynomial<D>::Term read;
+    int left = kMaxDegree;
+    for (int i = 0; i < D; ++i) {
+      read.exponent[i] = static_cast<int>(term.item(i).integer(0, left));
+      left -= read.exponent[i];
+    }
+    read.coefficient = term.item(D).rational();
     return read;
   });
-  Polynomial<2> polynomial = Polynomial<2>::from_terms(std::move(terms));
+  Polynomial<D> polynomial = Polynomial<D>::from_terms(std::move(terms));
   if (polynomial.is_constant()) node.fail("the polynomial is constant");
   return polynomial;
 }
 
-/// What a curve is the zero set of.
-Function<2> read_function(const JsonNode& curve) {
-  if (!curve.has("expression")) return read_terms(curve.member("terms"));
-  const JsonNode node = curve.member("expression");
-  auto expression = parse_expression<2>(node.text());
+/// What a curve or surface is the zero set of.
+template <int D>
+Function<D> read_function(const JsonNode& named) {
+  if (!named.has("expression")) return read_terms<D>(named.member("terms"));
+  const JsonNode node = named.member("expression");
+  auto expression = parse_expression<D>(node.text());
   if (const auto* e = std::get_if<SyntaxError>(&expression))
     node.fail("at character " + std::to_string(e->offset + 1) + ": " + e->message);
   return std::move(std::get<Expression>(expression));
+}
+
+template <int D>
+std::vector<NamedFunction<D>> read_functions(const JsonNode& list) {
+  return list.map([](const JsonNode& named) {
+    return NamedFunction<D>{named.member("name").text(), read_function<D>(named)};
+  });
+}
+
+SliceSource read_source(const JsonNode& node, std::size_t curves) {
+  const auto numbers = [](const JsonNode& item) {
+    item.of_size(4);
+    HalfSpace read;
+    for (int k = 0; k < 4; ++k) read[k] = item.item(k).rational();
+    return read;
+  };
+  const HalfSpace plane = numbers(node.member("plane"));
+  if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0)
+    node.member("plane").fail("a plane needs a normal");
+  const JsonNode sides = node.member("region").member("halfspaces");
+  auto region = make_polyhedron(sides.map(numbers));
+  if (!region) sides.fail(region.error().message);
+  SliceSource source{read_functions<3>(node.member("surfaces")),
+                     std::move(region).value(),
+                     PlaneChart(plane),
+                     {},
+                     {}};
+  source.surface_of = node.member("surface_of").indices(source.surfaces.size());
+  node.member("surface_of").of_size(static_cast<int>(curves));
+  source.containing = node.member("containing").indices(source.surfaces.size());
+  return source;
 }
 
 Region read_region(const JsonNode& node) {
@@ -239,19 +275,18 @@ Encasement read_encasement(const JsonNode& root) {
   if (version.integer(0, std::numeric_limits<int>::max()) != kResultVersion)
     version.fail("this version of encase reads version " + std::to_string(kResultVersion) +
                  " only");
-  if (root.member("command").text() != "curves")
-    root.member("command").fail("this version of encase reads results of 'curves' only");
+  if (root.member("command").text() != "curves" && root.member("command").text() != "slice")
+    root.member("command").fail(
+        "this version of encase reads results of 'curves' and 'slice' only");
 
   Encasement e;
   e.outcome = root.member("status").one_of(kOutcomes);
   const JsonNode input = root.member("input");
-  e.input = input.member("curves").map([](const JsonNode& curve) {
-    return NamedCurve{curve.member("name").text(), read_function(curve)};
-  });
+  e.input = read_functions<2>(input.member("curves"));
   e.perturbation = input.member("delta").number();
   e.seed = input.member("seed").unsigned_integer();
   e.curves = root.member("curves").map([&](const JsonNode& curve) {
-    return Curve{curve.member("name").text(), read_function(curve),
+    return Curve{curve.member("name").text(), read_function<2>(curve),
                  curve.member("sources").indices(e.input.size())};
   });
   e.region = read_region(root.member("region"));
@@ -316,7 +351,9 @@ Result<StoredResult> result_from_json(const std::string& text, const std::string
   try {
     const Json json = Json::parse(text);
     const JsonNode root(json);
-    StoredResult result{read_encasement(root), std::nullopt};
+    StoredResult result{read_encasement(root), std::nullopt, std::nullopt};
+    if (root.member("command").text() == "slice")
+      result.source = read_source(root.member("slice"), result.encasement.input.size());
     if (root.has("arrangement"))
       result.arrangement = read_arrangement(root.member("arrangement"), result.encasement);
     return result;

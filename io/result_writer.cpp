@@ -13,17 +13,19 @@
 namespace encase {
 namespace {
 
-void put_terms(JsonWriter& w, const Polynomial<2>& polynomial) {
-  w.list(polynomial.terms(), [&](const Polynomial<2>::Term& term) {
+template <int D>
+void put_terms(JsonWriter& w, const Polynomial<D>& polynomial) {
+  w.list(polynomial.terms(), [&](const typename Polynomial<D>::Term& term) {
     w.raw("[");
-    w.put(term.exponent[0]), w.raw(","), w.put(term.exponent[1]), w.raw(",");
+    for (const int exponent : term.exponent) w.put(exponent), w.raw(",");
     w.put(term.coefficient);
     w.raw("]");
   });
 }
 
 /// The terms of a polynomial, or an expression as a text.
-void put_function(JsonWriter& w, const Function<2>& function) {
+template <int D>
+void put_function(JsonWriter& w, const Function<D>& function) {
   if (function.is_polynomial()) {
     w.key("terms"), put_terms(w, function.polynomial());
   } else {
@@ -163,9 +165,25 @@ void put_statistics(JsonWriter& w, const Statistics& s, bool with_pairs) {
   w.raw("}");
 }
 
-}  // namespace
+void put_source(JsonWriter& w, const SliceSource& source) {
+  w.raw("{");
+  w.field("plane", source.chart.plane());
+  w.key("region"), w.raw("{\"halfspaces\":"), w.list(source.region.sides), w.raw("}");
+  w.raw(",\"surfaces\":");
+  w.lines(source.surfaces, [&](const NamedSurface& surface) {
+    w.raw("{");
+    w.field("name", surface.name);
+    put_function(w, surface.function);
+    w.raw("}");
+  });
+  w.field("surface_of", source.surface_of);
+  w.field("containing", source.containing);
+  w.raw("}");
+}
 
-std::string to_json(const Encasement& e, const Arrangement* arrangement) {
+/// `source`: of a slice.
+std::string write_result(const Encasement& e, const Arrangement* arrangement,
+                         const SliceSource* source) {
   JsonWriter w;
   w.raw("{\n");
   w.field("format", "encase-result");
@@ -174,7 +192,7 @@ std::string to_json(const Encasement& e, const Arrangement* arrangement) {
     w.key(key);
   };
   top("version"), w.put(kResultVersion);
-  top("command"), w.put("curves");
+  top("command"), w.put(source ? "slice" : "curves");
   top("status"), w.put(name_of(kOutcomes, e.outcome));
   top("input"), w.raw("{\"curves\":");
   w.lines(e.input, [&](const NamedCurve& curve) {
@@ -186,6 +204,7 @@ std::string to_json(const Encasement& e, const Arrangement* arrangement) {
   w.field("delta", e.perturbation);
   w.field("seed", e.seed);
   w.raw("}");
+  if (source) top("slice"), put_source(w, *source);
   top("curves");
   w.lines(e.curves, [&](const Curve& curve) {
     w.raw("{");
@@ -239,6 +258,17 @@ std::string to_json(const Encasement& e, const Arrangement* arrangement) {
   w.raw("\n}\n");
   return w.take();
 }
+
+}  // namespace
+
+std::string to_json(const Encasement& encasement, const Arrangement* arrangement) {
+  return write_result(encasement, arrangement, nullptr);
+}
+
+std::string to_json(const Slice& slice, const Arrangement* arrangement) {
+  return write_result(slice.encasement, arrangement, &slice.source);
+}
+
 std::string summary_json(const Encasement& e, const Arrangement* arrangement) {
   const auto counted = std::count_if(e.crossings.begin(), e.crossings.end(), [](const Crossing& c) {
     return c.location != Location::Outside;

@@ -30,11 +30,17 @@ ExitCode run_check(const CheckRequest& request) {
   if (!text) return fail(text.error());
   const auto stored = result_from_json(text.value(), file == "-" ? "standard input" : file);
   if (!stored) return fail(stored.error());
-  const auto& [encasement, arrangement] = stored.value();
+  const auto& [encasement, arrangement, source] = stored.value();
   std::optional<Progress> progress(std::in_place, !quiet);
   progress->begin("proving the result again");
-  const Verification verification =
+  Verification verification =
       arrangement ? verify(encasement, *arrangement, options) : verify(encasement, options);
+  if (source) {
+    const Verification more = verify_source(*source, encasement, options);
+    verification.claims += more.claims;
+    verification.objections.insert(verification.objections.end(), more.objections.begin(),
+                                   more.objections.end());
+  }
   progress.reset();
   if (!verification.ok()) {
     std::string objections;

@@ -141,14 +141,14 @@ Result<std::string> summary(const SliceRequest& r, const std::vector<Slice>& sli
 }
 
 std::string slice_report(const SliceRequest& r, const Slice& slice) {
-  const auto& plane = slice.chart.plane();
-  const auto axis = [&](std::size_t k) { return "xyz"[slice.chart.axes()[k]]; };
+  const auto& plane = slice.source.chart.plane();
+  const auto axis = [&](std::size_t k) { return "xyz"[slice.source.chart.axes()[k]]; };
   std::string text =
       fmt::format("plane {} {} {} {}; coordinates {} and {}\n", plane[0].get_str(),
                   plane[1].get_str(), plane[2].get_str(), plane[3].get_str(), axis(0), axis(1));
-  for (const int k : slice.containing)
+  for (const int k : slice.source.containing)
     text += fmt::format("surface {} contains the plane\n",
-                        slice.surfaces[static_cast<std::size_t>(k)].name);
+                        slice.source.surfaces[static_cast<std::size_t>(k)].name);
   text += report(slice.encasement);
   if (r.verbose) text += statistics_report(slice.encasement);
   return text;

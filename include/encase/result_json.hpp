@@ -6,6 +6,7 @@
 
 #include "encase/arrangement.hpp"
 #include "encase/encasement.hpp"
+#include "encase/slice.hpp"
 
 namespace encase {
 
@@ -15,10 +16,14 @@ namespace encase {
 /// give equal bytes.
 std::string to_json(const Encasement& encasement, const Arrangement* arrangement = nullptr);
 
+/// The same of a slice, with its surfaces, their region and the plane.
+std::string to_json(const Slice& slice, const Arrangement* arrangement = nullptr);
+
 /// What a file holds.
 struct StoredResult {
   Encasement encasement;
   std::optional<Arrangement> arrangement;  ///< if it is in the file
+  std::optional<SliceSource> source;       ///< if the result is a slice
 };
 
 /// Reads what `to_json` wrote. Every index in the result refers to something that is there, every

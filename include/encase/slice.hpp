@@ -44,16 +44,21 @@ class PlaneChart {
   std::array<double, 3> rounded_height_;
 };
 
-/// What surfaces look like on a plane.
-struct Slice {
+/// Where a slice comes from.
+struct SliceSource {
   std::vector<NamedSurface> surfaces;
   Polyhedron region;
   PlaneChart chart;
+  std::vector<int> surface_of;  ///< of every input curve of the encasement
+  std::vector<int> containing;  ///< surfaces that contain the whole plane
+};
+
+/// What surfaces look like on a plane.
+struct Slice {
+  SliceSource source;
   /// Of the curves in which the surfaces meet the plane, in the chart's coordinates; they have the
   /// surfaces' names.
   Encasement encasement;
-  std::vector<int> surface_of;  ///< of every input curve of the encasement
-  std::vector<int> containing;  ///< surfaces that contain the whole plane
 };
 
 /// Encases the curves in which surfaces meet a plane, in the part of the polyhedron that lies in
@@ -63,8 +68,12 @@ struct Slice {
 Result<Slice> slice(const std::vector<NamedSurface>& surfaces, const Polyhedron& region,
                     const std::array<Rational, 4>& plane, const EncaseOptions& options = {});
 
-/// Proves again that the encasement is one of what the surfaces have on the plane, and the
-/// encasement itself.
+/// Proves again that the region and the curves of an encasement are what the source has on its
+/// plane.
+Verification verify_source(const SliceSource& source, const Encasement& encasement,
+                           const VerifyOptions& options = {});
+
+/// Proves that again, and the encasement itself.
 Verification verify(const Slice& slice, const VerifyOptions& options = {});
 
 /// `count` planes parallel to a x + b y + c z = 0 that cut the polyhedron into slabs of equal

@@ -101,7 +101,8 @@ Status write_result(const Encasement& encasement, const PlaneChart* chart, Field
 FieldData field_data(const Slice& slice) {
   FieldData about = encase::field_data(slice.encasement);
   std::string plane;
-  for (const Rational& c : slice.chart.plane()) plane += (plane.empty() ? "" : " ") + c.get_str();
+  for (const Rational& c : slice.source.chart.plane())
+    plane += (plane.empty() ? "" : " ") + c.get_str();
   about.push_back({"plane", {plane}});
   return about;
 }
@@ -127,7 +128,7 @@ Status write_vtk(const Encasement& encasement, const std::string& directory, boo
 }
 
 Status write_vtk(const Slice& slice, const std::string& directory, bool history) {
-  return write_result(slice.encasement, &slice.chart, field_data(slice), directory, history);
+  return write_result(slice.encasement, &slice.source.chart, field_data(slice), directory, history);
 }
 
 Status write_vtk(const std::vector<Slice>& slices, const std::string& directory) {

@@ -2,6 +2,7 @@
 #include "encase/slice.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -66,36 +67,41 @@ Result<Slice> slice(const std::vector<NamedSurface>& surfaces, const Polyhedron&
   auto& [polygon, curves, surface_of, containing] = on_plane.value();
   auto encasement = encase(curves, polygon, options);
   if (!encasement) return encasement.error();
-  return Slice{surfaces,
-               region,
-               chart,
-               std::move(encasement).value(),
-               std::move(surface_of),
-               std::move(containing)};
+  return Slice{{surfaces, region, chart, std::move(surface_of), std::move(containing)},
+               std::move(encasement).value()};
 }
 
-Verification verify(const Slice& slice, const VerifyOptions& options) {
-  Verification result = verify(slice.encasement, options);
+Verification verify_source(const SliceSource& source, const Encasement& e,
+                           const VerifyOptions& options) {
+  Verification result;
   const auto require = [&](bool holds, const char* objection) {
     if (holds)
       ++result.claims;
     else
       result.objections.emplace_back(objection);
   };
-  const auto expected = restrict(slice.chart, slice.surfaces, slice.region, options.max_bits);
+  const auto expected = restrict(source.chart, source.surfaces, source.region, options.max_bits);
   require(expected.ok(), "The plane, the surfaces and the region have no slice.");
   if (!expected) return result;
   const auto& [region, curves, surface_of, containing] = expected.value();
-  const Encasement& e = slice.encasement;
   require(e.region.corners == region.corners && !e.region.plane,
           "The region of the slice is not the plane's part of the region.");
   require(
-      slice.surface_of == surface_of && slice.containing == containing,
+      source.surface_of == surface_of && source.containing == containing,
       "The surfaces that have a curve on the plane, or contain it, are not those of the slice.");
   bool same = e.input.size() == curves.size() && e.perturbation == 0;
   for (std::size_t k = 0; same && k < curves.size(); ++k)
     same = e.input[k].function == curves[k].function && e.input[k].name == curves[k].name;
   require(same, "The curves of the slice are not those of the surfaces on the plane.");
+  return result;
+}
+
+Verification verify(const Slice& slice, const VerifyOptions& options) {
+  Verification result = verify(slice.encasement, options);
+  Verification source = verify_source(slice.source, slice.encasement, options);
+  result.claims += source.claims;
+  std::move(source.objections.begin(), source.objections.end(),
+            std::back_inserter(result.objections));
   return result;
 }
 

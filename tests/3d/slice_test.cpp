@@ -57,7 +57,7 @@ TEST(Slice, CrossingsAreThoseOfTheIntersectionCurveWithThePlane) {
   const Slice result = certified(spheres, cube(2), {0, 1, Rational(-1, 3), Rational(-1, 10)});
   ASSERT_EQ(result.encasement.crossings.size(), 2u);
   for (const Crossing& crossing : result.encasement.crossings) {
-    const Point<3> p = result.chart.lift(crossing.point);
+    const Point<3> p = result.source.chart.lift(crossing.point);
     EXPECT_NEAR(p[0], 0.5, 1e-14);
     EXPECT_NEAR(p[1] * p[1] + p[2] * p[2], 0.75, 1e-14);
     EXPECT_NEAR(p[1], p[2] / 3 + 0.1, 1e-14);
@@ -69,8 +69,8 @@ TEST(Slice, SurfacesWithoutACurveOnThePlaneAreToldApart) {
                                            surface("beside", "z-1"),
                                            surface("sphere", "x^2+y^2+z^2-1")};
   const Slice result = certified(surfaces, cube(2), {0, 0, 1, 0});
-  EXPECT_EQ(result.containing, std::vector<int>{0});
-  EXPECT_EQ(result.surface_of, std::vector<int>{2});
+  EXPECT_EQ(result.source.containing, std::vector<int>{0});
+  EXPECT_EQ(result.source.surface_of, std::vector<int>{2});
   ASSERT_EQ(result.encasement.input.size(), 1u);
   EXPECT_EQ(result.encasement.input[0].name, "sphere");
 }
@@ -81,8 +81,8 @@ TEST(Slice, ConstantExpressionsAreToldApartToo) {
   const std::vector<NamedSurface> surfaces{{"contains", sine(z) * Expression::pi()},
                                            {"beside", sine(z + Expression(1))}};
   const Slice result = certified(surfaces, cube(2), {0, 0, 1, 0});
-  EXPECT_EQ(result.containing, std::vector<int>{0});
-  EXPECT_TRUE(result.surface_of.empty());
+  EXPECT_EQ(result.source.containing, std::vector<int>{0});
+  EXPECT_TRUE(result.source.surface_of.empty());
   // sin(pi) is zero, but no arithmetic of intervals proves it.
   const auto unknown = slice({{"s", sine(z + Expression::pi())}}, cube(2), {0, 0, 1, 0});
   ASSERT_FALSE(unknown);
@@ -92,7 +92,7 @@ TEST(Slice, ConstantExpressionsAreToldApartToo) {
 TEST(Slice, WithoutCurvesIsAnEmptyCell) {
   const Slice result = certified({surface("beside", "z-1")}, cube(2), {0, 0, 1, 0});
   EXPECT_EQ(result.encasement.cells.size(), 1u);
-  EXPECT_TRUE(result.surface_of.empty());
+  EXPECT_TRUE(result.source.surface_of.empty());
 }
 
 TEST(Slice, CheckerObjectsToWhatIsNotOnThePlane) {
@@ -103,14 +103,15 @@ TEST(Slice, CheckerObjectsToWhatIsNotOnThePlane) {
     change(bad);
     EXPECT_FALSE(verify(bad).ok());
   };
-  expect_objection([](Slice& s) { s.chart = PlaneChart({0, 0, 1, Rational(-1, 2)}); });
-  expect_objection([](Slice& s) { s.chart = PlaneChart({0, 0, 1, -1}); });
-  expect_objection([](Slice& s) { s.surfaces[1].function = written::polynomial<3>("x^2+y^2-2"); });
-  expect_objection([](Slice& s) { s.surfaces[0].function = written::polynomial<3>("z"); });
-  expect_objection([](Slice& s) { s.surfaces[1].name = "t"; });
-  expect_objection([](Slice& s) { s.surface_of = {0}; });
-  expect_objection([](Slice& s) { s.containing = {0}; });
-  expect_objection([](Slice& s) { s.region = cube(3); });
+  expect_objection([](Slice& s) { s.source.chart = PlaneChart({0, 0, 1, Rational(-1, 2)}); });
+  expect_objection([](Slice& s) { s.source.chart = PlaneChart({0, 0, 1, -1}); });
+  expect_objection(
+      [](Slice& s) { s.source.surfaces[1].function = written::polynomial<3>("x^2+y^2-2"); });
+  expect_objection([](Slice& s) { s.source.surfaces[0].function = written::polynomial<3>("z"); });
+  expect_objection([](Slice& s) { s.source.surfaces[1].name = "t"; });
+  expect_objection([](Slice& s) { s.source.surface_of = {0}; });
+  expect_objection([](Slice& s) { s.source.containing = {0}; });
+  expect_objection([](Slice& s) { s.source.region = cube(3); });
   expect_objection([](Slice& s) { s.encasement.crossings.push_back({}); });
 }
 
