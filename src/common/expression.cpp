@@ -84,8 +84,8 @@ bool fold(Operation operation, const Rational& a, const Rational& b, Rational* r
 bool fold_power(const Rational& base, int exponent, Rational* result) {
   constexpr std::size_t kMaxBits = 1000000;
   if (base == 0 && exponent < 0) return false;
-  const std::size_t bits = std::max(mpz_sizeinbase(base.get_num_mpz_t(), 2),
-                                    mpz_sizeinbase(base.get_den_mpz_t(), 2));
+  const std::size_t bits =
+      std::max(mpz_sizeinbase(base.get_num_mpz_t(), 2), mpz_sizeinbase(base.get_den_mpz_t(), 2));
   unsigned long times = static_cast<unsigned long>(std::labs(exponent));
   if (abs(base) == 1 || base == 0)
     times = times == 0 ? 0 : 2 - times % 2;
