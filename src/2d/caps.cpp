@@ -25,12 +25,17 @@ bool is_rectangle(const Region& region) {
   return true;
 }
 
+bool is_constant(const Function<2>& f) {
+  if (f.is_polynomial()) return f.polynomial().is_constant();
+  return !f.expression().uses(0) && !f.expression().uses(1);
+}
+
 Status check_input(const std::vector<NamedCurve>& curves, const Region& region,
                    const CapsOptions& options) {
   if (curves.empty()) return bad_input("there are no curves");
   for (const NamedCurve& curve : curves)
-    if (curve.function.is_polynomial() && curve.function.polynomial().is_constant())
-      return bad_input("curve '" + curve.name + "' is a constant: it has no points or all");
+    if (is_constant(curve.function))
+      return bad_input("curve '" + curve.name + "' is a constant: it has no points, or all");
   if (!is_rectangle(region))
     return bad_input(
         "CAPS subdivides a rectangle along the axes: give the region as \"xmin xmax ymin ymax\"");

@@ -44,6 +44,7 @@ const std::vector<Section>& sections() {
       {"work", work_table},
       {"files", [](RandomPairs&, const Request& r) { return files_table(r); }},
       {"tangencies", [](RandomPairs&, const Request& r) { return near_tangency_table(r); }},
+      {"caps", [](RandomPairs&, const Request& r) { return caps_table(r); }},
       {"locality", [](RandomPairs&, const Request& r) { return locality_table(r); }},
       {"growth", growth_table},
       {"arcs", [](RandomPairs&, const Request& r) { return arcs_table(r); }},
@@ -182,6 +183,7 @@ int main(int argc, char** argv) {
       "Times are CPU time of one thread; figures are medians. Exit codes: 0 measured, 1 not.");
   Request request;
   request.curves_directory = ENCASE_BENCHMARK_CURVES;
+  request.caps_directory = ENCASE_BENCHMARK_CAPS;
   Outputs outputs;
   std::vector<std::string> only;
   add_options(app, request, outputs, only);

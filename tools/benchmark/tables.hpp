@@ -17,6 +17,7 @@ struct Request {
   int most_curves = 10000;  ///< what has more curves is left out
   Repetitions repetitions;
   std::string curves_directory;  ///< of the .curves files
+  std::string caps_directory;    ///< of those of CAPS, table 1
 };
 
 /// Times, in floors where there is no CGAL to compare with; figures are medians over the seeds.
@@ -40,6 +41,9 @@ Table growth_table(RandomPairs& pairs, const Request& request);
 /// The most memory a process needs for one encasement. A process that has used much memory before
 /// cannot tell: to be called first.
 Table memory_table(const Request& request);
+
+/// The seven classes of CAPS, table 1, re-created: sizes and times beside the published ones.
+Table caps_table(const Request& request);
 
 /// Circles that cross in up to half a million points: count, time and memory.
 Table circles_table(const Request& request);
