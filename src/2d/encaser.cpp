@@ -10,10 +10,12 @@
 #include "2d/locate.hpp"
 #include "2d/saddles.hpp"
 #include "2d/shared_leaves.hpp"
+#include "common/analytic_gaps.hpp"
 #include "common/components.hpp"
 #include "common/isolate_roots.hpp"
 #include "common/parallel.hpp"
 #include "common/perturb.hpp"
+#include "common/plane_subdivision.hpp"
 
 namespace encase {
 namespace {
@@ -125,26 +127,51 @@ bool Encaser::out_of_budget() {
   return is_used_up_;
 }
 
+namespace {
+
+Status bad_input(std::string message) {
+  return Status(Error{Error::Code::BadInput, std::move(message)});
+}
+
+Status check_polynomial(const NamedCurve& curve) {
+  const Polynomial<2>& polynomial = curve.function.polynomial();
+  if (polynomial.is_zero())
+    return bad_input("curve '" + curve.name + "' is the zero polynomial: every point lies on it");
+  if (polynomial.is_constant())
+    return bad_input("curve '" + curve.name + "' is a constant: no point lies on it");
+  if (polynomial.degree() > kMaxDegree)
+    return bad_input("curve '" + curve.name + "' has degree " +
+                     std::to_string(polynomial.degree()) + ", above the limit of " +
+                     std::to_string(kMaxDegree));
+  return std::nullopt;
+}
+
+}  // namespace
+
+Status Encaser::check_expression(const NamedCurve& curve) const {
+  const Expression& expression = curve.function.expression();
+  if (!expression.uses(0) && !expression.uses(1))
+    return bad_input("curve '" + curve.name + "' is a constant: it has no x and no y");
+  if (expression.uses(2))
+    return bad_input("curve '" + curve.name + "' has a z: a curve in the plane has x and y only");
+  if (result_.region.plane)
+    return bad_input("curve '" + curve.name +
+                     "' is no polynomial: it can be encased in a bounded region, not in the plane");
+  if (result_.perturbation > 0)
+    return bad_input("curve '" + curve.name +
+                     "' is no polynomial: it has no coefficients to be perturbed");
+  return std::nullopt;
+}
+
 Status Encaser::check_input() const {
-  const auto bad = [](std::string message) {
-    return Status(Error{Error::Code::BadInput, std::move(message)});
-  };
   if (!result_.region.plane && result_.region.corners.size() < 3)
-    return bad("the region has fewer than three corners");
-  for (const NamedCurve& curve : result_.input) {
-    if (!curve.function.is_polynomial())
-      return bad("curve '" + curve.name + "' is not a polynomial; so far only those are encased");
-    if (curve.function.polynomial().is_zero())
-      return bad("curve '" + curve.name + "' is the zero polynomial: every point lies on it");
-    if (curve.function.polynomial().is_constant())
-      return bad("curve '" + curve.name + "' is a constant: no point lies on it");
-    if (curve.function.polynomial().degree() > kMaxDegree)
-      return bad("curve '" + curve.name + "' has degree " +
-                 std::to_string(curve.function.polynomial().degree()) + ", above the limit of " +
-                 std::to_string(kMaxDegree));
-  }
+    return bad_input("the region has fewer than three corners");
+  for (const NamedCurve& curve : result_.input)
+    if (const Status status =
+            curve.function.is_polynomial() ? check_polynomial(curve) : check_expression(curve))
+      return status;
   if (!(result_.perturbation >= 0) || !std::isfinite(result_.perturbation))
-    return bad("the perturbation must be a number that is not negative");
+    return bad_input("the perturbation must be a number that is not negative");
   return std::nullopt;
 }
 
@@ -158,10 +185,22 @@ void Encaser::separate_components() {
       if (k >= perturbed_) function = std::move(perturbed);
     }
   }
+  separate_polynomials();
+  separate_expressions();
+  for (const Curve& curve : result_.curves) polynomials_.emplace_back(curve.function);
+}
+
+void Encaser::separate_polynomials() {
   std::vector<Polynomial<2>> inputs;
-  for (const NamedCurve& curve : result_.input) inputs.push_back(curve.function.polynomial());
-  std::vector<int> used(inputs.size(), 0);
+  std::vector<int> input_of;
+  for (std::size_t k = 0; k < result_.input.size(); ++k)
+    if (result_.input[k].function.is_polynomial()) {
+      inputs.push_back(result_.input[k].function.polynomial());
+      input_of.push_back(static_cast<int>(k));
+    }
+  std::vector<int> used(result_.input.size(), 0);
   for (BaseElement<2>& element : coprime_square_free_base(inputs)) {
+    for (auto& source : element.sources) source.index = input_of[source.index];
     Curve curve;
     Unresolved note;
     note.proved = true;
@@ -189,9 +228,44 @@ void Encaser::separate_components() {
       curve.name += " (" + std::to_string(used[element.sources[0].index]) + ")";
     }
     curve.function = std::move(element.polynomial);
-    polynomials_.emplace_back(curve.function.polynomial());
     result_.curves.push_back(std::move(curve));
   }
+}
+
+/// Equal expressions are one curve; nothing else is known of what they have in common.
+void Encaser::separate_expressions() {
+  const std::size_t first = result_.curves.size();
+  for (std::size_t k = 0; k < result_.input.size(); ++k) {
+    const NamedCurve& from = result_.input[k];
+    if (from.function.is_polynomial()) continue;
+    const int index = static_cast<int>(k);
+    const auto same = std::find_if(
+        result_.curves.begin() + static_cast<std::ptrdiff_t>(first), result_.curves.end(),
+        [&](const Curve& curve) { return curve.function == from.function; });
+    if (same == result_.curves.end()) {
+      Curve curve;
+      curve.name = from.name;
+      curve.function = from.function;
+      curve.sources = {index};
+      result_.curves.push_back(std::move(curve));
+    } else {
+      same->name += " & " + from.name;
+      same->sources.push_back(index);
+    }
+  }
+  for (std::size_t c = first; c < result_.curves.size(); ++c) {
+    const Curve& curve = result_.curves[c];
+    if (curve.sources.size() < 2) continue;
+    Unresolved note;
+    note.kind = Unresolved::Kind::SharedComponent;
+    note.proved = true;
+    note.curves = curve.sources;
+    note.reason = "curves '" + curve.name + "' are the same; they are encased as one curve";
+    result_.degenerate.push_back(std::move(note));
+  }
+  if (first < result_.curves.size())
+    std::stable_sort(result_.curves.begin(), result_.curves.end(),
+                     [](const Curve& a, const Curve& b) { return a.sources[0] < b.sources[0]; });
 }
 
 void Encaser::use_region(const Region& region) {
@@ -316,7 +390,31 @@ std::vector<Box<2>> Encaser::clusters_of(const std::vector<Box<2>>& unresolved) 
   return clusters;
 }
 
-void Encaser::report(const Leftover& left, Unresolved::Kind kind, std::vector<int> curves) {
+/// Where curves are not known to be zero sets of analytic functions.
+void Encaser::report_gaps() {
+  for (std::size_t c = 0; c < tiled_.size(); ++c) {
+    std::vector<Box<2>> zones;
+    for (const Box<2>& gap : tiled_[c].gaps())
+      if (lies_inside(zone_of(gap), sides_) != false) zones.push_back(zone_of(gap));
+    for (const Box<2>& box : gathered(std::move(zones), tiled_[c].box())) {
+      Unresolved entry;
+      entry.kind = Unresolved::Kind::NotAnalytic;
+      entry.box = box;
+      entry.has_box = true;
+      entry.curves = {static_cast<int>(c)};
+      entry.reason = "the function of curve '" + result_.curves[c].name +
+                     "' is not defined, has a pole or is not differentiable here, or nearly";
+      result_.degenerate.push_back(std::move(entry));
+    }
+  }
+}
+
+void Encaser::report(Leftover left, Unresolved::Kind kind, std::vector<int> curves) {
+  // What lies in gaps is reported already.
+  std::erase_if(left.unresolved, [&](const Box<2>& box) {
+    return std::any_of(curves.begin(), curves.end(),
+                       [&](int c) { return relation(box, tiled_[c].gaps()) == Relation::Within; });
+  });
   if (left.unresolved.empty()) return;
   std::string names;
   for (const int c : curves)
@@ -355,6 +453,7 @@ void Encaser::isolate_crossings() {
                                           [](const Unresolved& u) { return u.has_box; }),
                            result_.degenerate.end());
   result_.undecided.clear();
+  report_gaps();
   const int n = static_cast<int>(polynomials_.size());
   result_.shared_cover = {};
   curve_roots_.clear();
@@ -516,7 +615,7 @@ void Encaser::collect_zones() {
   std::vector<Box<2>> boxes;
   for (const auto* list : {&result_.degenerate, &result_.undecided})
     for (const Unresolved& entry : *list)
-      if (entry.has_box) boxes.push_back(entry.box);
+      if (entry.has_box && entry.kind != Unresolved::Kind::NotAnalytic) boxes.push_back(entry.box);
   for (std::size_t before = 0; before != boxes.size();) {
     before = boxes.size();
     boxes = clusters_of(boxes);
@@ -538,6 +637,17 @@ void Encaser::collect_zones() {
     margin = std::max(margin, 2 * box.largest_width());
     Zone zone{box, box};
     for (int i = 0; i < 2; ++i) {
+      zone.clearance.lo[i] -= margin;
+      zone.clearance.hi[i] += 1.07 * margin;
+    }
+    features_.zones.push_back(zone);
+  }
+  for (const Unresolved& entry : result_.degenerate) {
+    if (entry.kind != Unresolved::Kind::NotAnalytic) continue;
+    Zone zone{entry.box, entry.box, true};
+    for (int i = 0; i < 2; ++i) {
+      const double margin =
+          0x1p-8 * diameter + 0.5 * std::min(entry.box.width(0), entry.box.width(1));
       zone.clearance.lo[i] -= margin;
       zone.clearance.hi[i] += 1.07 * margin;
     }

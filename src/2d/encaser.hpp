@@ -55,6 +55,9 @@ class Encaser {
     double part_done() const { return static_cast<double>(done) / count; }
   };
   void run(Tasks& tasks, const std::function<void(int index)>& task);
+  Status check_expression(const NamedCurve& curve) const;
+  void separate_polynomials();
+  void separate_expressions();
   bool open_polygon();
   bool open_plane();
   SubdivisionLimits limits(Tasks& tasks, Unresolved::Kind kind, const Box<2>& root);
@@ -68,12 +71,13 @@ class Encaser {
   void use_region(const Region& region);
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
   struct Leftover {
-    const std::vector<Box<2>>& unresolved;
+    std::vector<Box<2>> unresolved;
     const Box<2>& root;
     double smallest;  ///< part of the root's width beyond which boxes are not halved
     bool stopped;     ///< the budget had run out
   };
-  void report(const Leftover& left, Unresolved::Kind kind, std::vector<int> curves);
+  void report(Leftover left, Unresolved::Kind kind, std::vector<int> curves);
+  void report_gaps();
   void count_pairs();
   void report_concurrency();
   struct Part;

@@ -285,7 +285,7 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options) 
   if (!check_structure(claims)) return claims.report;
   claims.curves.reserve(encasement.curves.size());
   for (const Curve& curve : encasement.curves)
-    claims.curves.emplace_back(curve.function.polynomial());
+    claims.curves.emplace_back(curve.function);
 
   // The cheap statements that everything refers to.
   check_outcome(claims);

@@ -80,6 +80,7 @@ bool sharpen(const FilteredFunction<2>& f, const Line& line, Piece* piece, Kerne
     f.restrict_to(SegmentChart::of_line(line, piece->lo, piece->hi), bits, kernel, &piece->net);
     piece->bits = bits;
     if (settled(piece->net)) return true;
+    if (!f.precision_helps(piece->net)) return false;
     // The rounding to doubles bounds what precision can gain.
     if (from > Kernel::kDoubleBits && !(piece->net.radius < 0.5 * before)) return false;
     bits = kernel.next(bits);
@@ -161,7 +162,8 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredFunction<
       return std::fabs(upper.net.b.front()) > upper.net.radius &&
              std::fabs(lower.net.b.back()) > lower.net.radius;
     };
-    bool cut = nonzero_cut();
+    bool cut = nonzero_cut() || (!f.precision_helps(piece.net) &&
+                                 sign_on_line(f, line, middle, kernel) != Sign::Zero);
     if (!cut && sharpen(f, line, &piece, kernel, [&](const Bernstein<1>& net) {
           halve(net, 0, &lower.net, &upper.net);
           return nonzero_cut();
@@ -220,7 +222,9 @@ bool narrow_on_line(const FilteredFunction<2>& f, const Line& line, double at, R
   if (!(root->lo < at && at < root->hi)) return true;
   const Sign here = sign_on_line(f, line, at, kernel);
   if (here == Sign::Zero) return false;
-  (here == sign_on_line(f, line, root->lo, kernel) ? root->lo : root->hi) = at;
+  const Sign low = sign_on_line(f, line, root->lo, kernel);
+  if (low == Sign::Zero) return false;
+  (here == low ? root->lo : root->hi) = at;
   return true;
 }
 
@@ -242,6 +246,7 @@ bool refine_on_line(const FilteredFunction<2>& f, const Line& line, RootInterval
   const double middle = root->lo + 0.5 * width;
   if (!(root->lo < middle && middle < root->hi)) return false;
   const Sign low = sign_on_line(f, line, root->lo, kernel);
+  if (low == Sign::Zero) return false;
   // A secant step, fenced in; the middle if it does not help.
   const auto at_lo = value_on_line(f, line, root->lo), at_hi = value_on_line(f, line, root->hi);
   const double guess = root->lo - at_lo.value * width / (at_hi.value - at_lo.value);
@@ -341,7 +346,7 @@ bool no_root(const FilteredFunction<2>& f, double lo, double hi, Kernel& kernel,
         f.restrict_to(chart(piece.lo, piece.hi), bits, kernel, &piece.net);
         piece.bits = bits;
         sign = sign_on_cube(piece.net);
-        if (sign || !drowned(piece.net)) break;
+        if (sign || !drowned(piece.net) || !f.precision_helps(piece.net)) break;
         if (bits > Kernel::kDoubleBits && !(piece.net.radius < 0.5 * radius)) break;
         radius = piece.net.radius;
       }
