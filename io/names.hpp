@@ -35,6 +35,7 @@ inline constexpr Name<Unresolved::Kind> kUnresolvedKinds[] = {
     {Unresolved::Kind::SharedComponent, "shared_component"},
     {Unresolved::Kind::RepeatedComponent, "repeated_component"},
     {Unresolved::Kind::Infinity, "infinity"},
+    {Unresolved::Kind::NotAnalytic, "not_analytic"},
     {Unresolved::Kind::Budget, "budget"}};
 
 inline constexpr Name<Arrangement::Vertex::Kind> kVertexKinds[] = {

@@ -169,6 +169,7 @@ struct Unresolved {
     SharedComponent,    ///< input curves share a component (proved, no box)
     RepeatedComponent,  ///< an input curve has a repeated component (proved, no box)
     Infinity,           ///< curves touch the line at infinity or meet on it, or nearly (no box)
+    NotAnalytic,        ///< a curve's function has no value there, a pole, or no derivatives
     Budget              ///< a limit on cells, seconds, precision or a cancellation
   };
   Kind kind = Kind::Budget;
