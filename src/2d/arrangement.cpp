@@ -39,7 +39,7 @@ class BoundaryPoints {
 
   Point<2> of(const LineCrossing& crossing) {
     auto& f = polynomials_[crossing.curve];
-    if (!f) f.emplace(e_.curves[crossing.curve].function.polynomial());
+    if (!f) f.emplace(e_.curves[crossing.curve].function);
     const Line& line = e_.lines[crossing.line];
     const auto at = point_on_line(line, Rational(parameter(*f, line, crossing)));
     return {nearest_double(at[0]), nearest_double(at[1])};

@@ -98,7 +98,7 @@ std::string find_signs(const Encasement& e, const std::vector<std::vector<int>>&
   Kernel kernel;
   std::vector<Sign> signs;
   for (const Curve& curve : e.curves) {
-    const FilteredFunction<2> f(curve.function.polynomial());
+    const FilteredFunction<2> f(curve.function);
     signs.push_back(f.sign_at(e.region_used.corners[0], kernel));
     if (signs.back() == Sign::Zero) return "a curve passes through a corner";
   }

@@ -285,7 +285,13 @@ bool comes_before(const Encasement& encasement, const LineCrossing& crossing,
   if (at >= crossing.hi) return true;
   if (at <= crossing.lo) return false;
   // The one root in the interval lies before the point if the sign has changed.
-  const Polynomial<2>& f = encasement.curves[crossing.curve].function.polynomial();
+  const Function<2>& function = encasement.curves[crossing.curve].function;
+  if (!function.is_polynomial()) {
+    const FilteredFunction<2> f(function);
+    Kernel kernel;
+    return f.sign_at(point, kernel) != sign_on_line(f, line, crossing.lo, kernel);
+  }
+  const Polynomial<2>& f = function.polynomial();
   return sgn(f(point)) != sgn(f(point_on_line(line, Rational(crossing.lo))));
 }
 

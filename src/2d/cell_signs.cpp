@@ -9,7 +9,7 @@ namespace encase {
 
 CellSigns::CellSigns(const Encasement& encasement) : encasement_(encasement) {
   for (const Curve& curve : encasement.curves)
-    polynomials_.emplace_back(curve.function.polynomial());
+    polynomials_.emplace_back(curve.function);
 }
 
 std::vector<int> CellSigns::of(const Cell& cell) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "common/box_tests.hpp"
 #include "common/plane_subdivision.hpp"
@@ -47,6 +48,7 @@ CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root
   const double small = result.root_box.largest_width() * 0x1p-10;
   constexpr int kFew = 64;
   int small_boxes = 0;
+  std::vector<std::pair<Box<2>, Sign>> proved_signs;  // of an expression
   constexpr int kRegion = 0;
   const auto visit = [&](const PlaneSubdivision<1>::Node& node) {
     const CriticalVerdict verdict = test_critical(node.net);
@@ -62,7 +64,8 @@ CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root
     }
     // Across the axis along which f changes more, weighted by the width.
     const int axis = change[0] * node.box.width(0) >= change[1] * node.box.width(1) ? 0 : 1;
-    if (node.box.width(axis) <= fine && node.net.sign()) {
+    if (const auto sign = node.net.sign(); sign && node.box.width(axis) <= fine) {
+      if (!f.polynomial().is_polynomial()) proved_signs.push_back({node.box, *sign});
       result.other_points.push_back(node.box);
       return kRegion;
     }
@@ -84,7 +87,10 @@ CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root
       // f was proved to have one sign on the leaf, and touching boxes share points: its exact sign
       // at any point is that of the whole component.
       const Point<2> center = boxes[next].center();
-      const Sign sign = f.polynomial().sign_at({Rational(center[0]), Rational(center[1])}, kernel);
+      Sign sign = f.polynomial().sign_at({Rational(center[0]), Rational(center[1])}, kernel);
+      // (At a point an expression's sign may take more bits than there are.)
+      for (std::size_t i = 0; sign == Sign::Zero && i < proved_signs.size(); ++i)
+        if (proved_signs[i].first == boxes[next]) sign = proved_signs[i].second;
       result.regions.push_back({curve, sign, {}});
     }
     result.regions[k].boxes.push_back(boxes[next]);

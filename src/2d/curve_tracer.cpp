@@ -28,7 +28,7 @@ Box<2> around(const Box<2>& box) {
 CurveTracer::CurveTracer(const Encasement& encasement, int curve, double tolerance)
     : encasement_(encasement),
       tolerance_(tolerance),
-      polynomial_(encasement.curves[curve].function.polynomial()) {
+      polynomial_(encasement.curves[curve].function) {
   const Box<2> box = encasement.region_used.bounding_box();
   for (int i = 0; i < 2; ++i) size_ = std::max({size_, std::fabs(box.lo[i]), std::fabs(box.hi[i])});
   tiles_ = std::make_unique<TiledFunction>(polynomial_, around(box), kernel_);

@@ -125,24 +125,51 @@ bool Encaser::out_of_budget() {
   return is_used_up_;
 }
 
+namespace {
+
+Status bad_input(std::string message) {
+  return Status(Error{Error::Code::BadInput, std::move(message)});
+}
+
+Status check_polynomial(const NamedCurve& curve) {
+  const Polynomial<2>& polynomial = curve.function.polynomial();
+  if (polynomial.is_zero())
+    return bad_input("curve '" + curve.name + "' is the zero polynomial: every point lies on it");
+  if (polynomial.is_constant())
+    return bad_input("curve '" + curve.name + "' is a constant: no point lies on it");
+  if (polynomial.degree() > kMaxDegree)
+    return bad_input("curve '" + curve.name + "' has degree " +
+                     std::to_string(polynomial.degree()) + ", above the limit of " +
+                     std::to_string(kMaxDegree));
+  return std::nullopt;
+}
+
+}  // namespace
+
+Status Encaser::check_expression(const NamedCurve& curve) const {
+  const Expression& expression = curve.function.expression();
+  if (!expression.uses(0) && !expression.uses(1))
+    return bad_input("curve '" + curve.name + "' is a constant: it has no x and no y");
+  if (expression.uses(2))
+    return bad_input("curve '" + curve.name + "' has a z: a curve in the plane has x and y only");
+  if (result_.region.plane)
+    return bad_input("curve '" + curve.name +
+                     "' is no polynomial: it can be encased in a bounded region, not in the plane");
+  if (result_.perturbation > 0)
+    return bad_input("curve '" + curve.name +
+                     "' is no polynomial: it has no coefficients to be perturbed");
+  return std::nullopt;
+}
+
 Status Encaser::check_input() const {
-  const auto bad = [](std::string message) {
-    return Status(Error{Error::Code::BadInput, std::move(message)});
-  };
   if (!result_.region.plane && result_.region.corners.size() < 3)
-    return bad("the region has fewer than three corners");
-  for (const NamedCurve& curve : result_.input) {
-    if (curve.function.polynomial().is_zero())
-      return bad("curve '" + curve.name + "' is the zero polynomial: every point lies on it");
-    if (curve.function.polynomial().is_constant())
-      return bad("curve '" + curve.name + "' is a constant: no point lies on it");
-    if (curve.function.polynomial().degree() > kMaxDegree)
-      return bad("curve '" + curve.name + "' has degree " +
-                 std::to_string(curve.function.polynomial().degree()) + ", above the limit of " +
-                 std::to_string(kMaxDegree));
-  }
+    return bad_input("the region has fewer than three corners");
+  for (const NamedCurve& curve : result_.input)
+    if (const Status status =
+            curve.function.is_polynomial() ? check_polynomial(curve) : check_expression(curve))
+      return status;
   if (!(result_.perturbation >= 0) || !std::isfinite(result_.perturbation))
-    return bad("the perturbation must be a number that is not negative");
+    return bad_input("the perturbation must be a number that is not negative");
   return std::nullopt;
 }
 
@@ -156,10 +183,22 @@ void Encaser::separate_components() {
       if (k >= perturbed_) function = std::move(perturbed);
     }
   }
+  separate_polynomials();
+  separate_expressions();
+  for (const Curve& curve : result_.curves) polynomials_.emplace_back(curve.function);
+}
+
+void Encaser::separate_polynomials() {
   std::vector<Polynomial<2>> inputs;
-  for (const NamedCurve& curve : result_.input) inputs.push_back(curve.function.polynomial());
-  std::vector<int> used(inputs.size(), 0);
+  std::vector<int> input_of;
+  for (std::size_t k = 0; k < result_.input.size(); ++k)
+    if (result_.input[k].function.is_polynomial()) {
+      inputs.push_back(result_.input[k].function.polynomial());
+      input_of.push_back(static_cast<int>(k));
+    }
+  std::vector<int> used(result_.input.size(), 0);
   for (BaseElement<2>& element : coprime_square_free_base(inputs)) {
+    for (auto& source : element.sources) source.index = input_of[source.index];
     Curve curve;
     Unresolved note;
     note.proved = true;
@@ -187,9 +226,44 @@ void Encaser::separate_components() {
       curve.name += " (" + std::to_string(used[element.sources[0].index]) + ")";
     }
     curve.function = std::move(element.polynomial);
-    polynomials_.emplace_back(curve.function.polynomial());
     result_.curves.push_back(std::move(curve));
   }
+}
+
+/// Equal expressions are one curve; nothing else is known of what they have in common.
+void Encaser::separate_expressions() {
+  const std::size_t first = result_.curves.size();
+  for (std::size_t k = 0; k < result_.input.size(); ++k) {
+    const NamedCurve& from = result_.input[k];
+    if (from.function.is_polynomial()) continue;
+    const int index = static_cast<int>(k);
+    const auto same = std::find_if(
+        result_.curves.begin() + static_cast<std::ptrdiff_t>(first), result_.curves.end(),
+        [&](const Curve& curve) { return curve.function == from.function; });
+    if (same == result_.curves.end()) {
+      Curve curve;
+      curve.name = from.name;
+      curve.function = from.function;
+      curve.sources = {index};
+      result_.curves.push_back(std::move(curve));
+    } else {
+      same->name += " & " + from.name;
+      same->sources.push_back(index);
+    }
+  }
+  for (std::size_t c = first; c < result_.curves.size(); ++c) {
+    const Curve& curve = result_.curves[c];
+    if (curve.sources.size() < 2) continue;
+    Unresolved note;
+    note.kind = Unresolved::Kind::SharedComponent;
+    note.proved = true;
+    note.curves = curve.sources;
+    note.reason = "curves '" + curve.name + "' are the same; they are encased as one curve";
+    result_.degenerate.push_back(std::move(note));
+  }
+  if (first < result_.curves.size())
+    std::stable_sort(result_.curves.begin(), result_.curves.end(),
+                     [](const Curve& a, const Curve& b) { return a.sources[0] < b.sources[0]; });
 }
 
 void Encaser::use_region(const Region& region) {

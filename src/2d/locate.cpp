@@ -41,8 +41,11 @@ std::optional<Region> enlarged(const Region& region, int attempt) {
 namespace {
 
 /// Whether the pair's only common point in the crossing's box lies on the line: the restrictions of
-/// both curves to the line have a common root there. Exact.
+/// both curves to the line have a common root there. Exact; of
+/// other curves than polynomials it is not known.
 bool on_line(const Encasement& encasement, const Crossing& crossing, const Line& line) {
+  for (const int c : crossing.curves)
+    if (!encasement.curves[c].function.is_polynomial()) return false;
   const Polynomial<1> common =
       gcd(restrict_exactly(encasement.curves[crossing.curves[0]].function.polynomial(), line),
           restrict_exactly(encasement.curves[crossing.curves[1]].function.polynomial(), line));

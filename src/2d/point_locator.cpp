@@ -85,7 +85,7 @@ PointLocator::PointLocator(const Encasement& e, const Arrangement& a) {
   auto tables = std::make_unique<Tables>();
   tables->encasement = &e;
   tables->outside = a.outside;
-  for (const Curve& curve : e.curves) tables->curves.emplace_back(curve.function.polynomial());
+  for (const Curve& curve : e.curves) tables->curves.emplace_back(curve.function);
 
   tables->cells.resize(e.cells.size());
   for (std::size_t k = 0; k < e.cells.size(); ++k)

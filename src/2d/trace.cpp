@@ -165,7 +165,7 @@ std::vector<Polyline> sketch_curve(const Encasement& encasement, int cell, int c
     }
     return true;
   };
-  const FilteredFunction<2> f(encasement.curves[curve].function.polynomial());
+  const FilteredFunction<2> f(encasement.curves[curve].function);
   std::vector<double> values;
   for (int j = 0; j <= steps[1]; ++j)
     for (int i = 0; i <= steps[0]; ++i) values.push_back(f.approximate(at(i, j)));

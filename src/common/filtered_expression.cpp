@@ -215,6 +215,7 @@ void round_model(const TaylorModel<K, Number>& from, TaylorModel<K, double>* to)
   to->stride = from.stride;
   to->norm = from.norm;
   to->error = from.error;
+  to->undefined = from.undefined;
   to->c.assign(from.c.size(), 0.0);
   if (!from.exists()) return;
   for (std::size_t k = 0; k < from.c.size(); ++k) {

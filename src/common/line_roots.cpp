@@ -414,8 +414,7 @@ class PathSearch {
       if (part.hi - part.lo > 0.125) {
         // The same once more would not help: shorter pieces where terms are missing, or more bits
         // (doubles stand for sums of two there).
-        if (f_.polynomial().degree() > Tile::kMaxDegree &&
-            piece.tile->error > kExpansionError * piece.tile->sum)
+        if (!f_.fits_tiles() && piece.tile->error > kExpansionError * piece.tile->sum)
           step *= 0.25;
         else
           bits = kernel_.next(std::max(bits, 2 * Kernel::kDoubleBits));
@@ -548,7 +547,9 @@ bool narrow_on_line(TiledFunction& f, const Line& line, double at, LineRoot* roo
   if (!(root->lo < at && at < root->hi)) return true;
   const Sign here = sign_on_line(f, line, at, kernel);
   if (here == Sign::Zero) return false;
-  (here == sign_on_line(f, line, root->lo, kernel) ? root->lo : root->hi) = at;
+  const Sign low = sign_on_line(f, line, root->lo, kernel);
+  if (low == Sign::Zero) return false;
+  (here == low ? root->lo : root->hi) = at;
   root->at = std::clamp(root->at, root->lo, root->hi);
   return true;
 }
@@ -558,6 +559,7 @@ bool refine_on_line(TiledFunction& f, const Line& line, LineRoot* root, Kernel& 
   const double middle = root->lo + 0.5 * width;
   if (!(root->lo < middle && middle < root->hi)) return false;
   const Sign low = sign_on_line(f, line, root->lo, kernel);
+  if (low == Sign::Zero) return false;
   const auto try_between = [&](double guess, double margin) {
     for (const double at : {guess - margin, guess + margin}) {
       if (!(root->lo < at && at < root->hi)) continue;

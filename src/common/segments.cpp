@@ -220,7 +220,9 @@ bool narrow_on_line(const FilteredFunction<2>& f, const Line& line, double at, R
   if (!(root->lo < at && at < root->hi)) return true;
   const Sign here = sign_on_line(f, line, at, kernel);
   if (here == Sign::Zero) return false;
-  (here == sign_on_line(f, line, root->lo, kernel) ? root->lo : root->hi) = at;
+  const Sign low = sign_on_line(f, line, root->lo, kernel);
+  if (low == Sign::Zero) return false;
+  (here == low ? root->lo : root->hi) = at;
   return true;
 }
 
@@ -242,6 +244,7 @@ bool refine_on_line(const FilteredFunction<2>& f, const Line& line, RootInterval
   const double middle = root->lo + 0.5 * width;
   if (!(root->lo < middle && middle < root->hi)) return false;
   const Sign low = sign_on_line(f, line, root->lo, kernel);
+  if (low == Sign::Zero) return false;
   // A secant step, fenced in; the middle if it does not help.
   const auto at_lo = value_on_line(f, line, root->lo), at_hi = value_on_line(f, line, root->hi);
   const double guess = root->lo - at_lo.value * width / (at_hi.value - at_lo.value);

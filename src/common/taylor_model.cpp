@@ -103,7 +103,7 @@ template <int D, class Number>
 bool both_exist(const TaylorModel<D, Number>& a, const TaylorModel<D, Number>& b,
                 TaylorModel<D, Number>* r) {
   if (a.exists() && b.exists()) return true;
-  r->claim_nothing();
+  r->claim_nothing(a.undefined || b.undefined);
   return false;
 }
 
@@ -232,6 +232,7 @@ void TaylorArithmetic<D, Number>::copy(const Model& a, Model* r) const {
   r->span = a.span;
   r->norm = a.norm;
   r->error = a.error;
+  r->undefined = a.undefined;
   for_rows<D>(a.span, a.degree, a.stride, [&](int offset, int count, int) {
     std::copy_n(a.c.data() + offset, count, r->c.data() + offset);
   });
@@ -363,7 +364,7 @@ void TaylorArithmetic<D, Number>::compose(Model& a, double rest, double tail,
 
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::invert(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing();
+  if (!a.exists()) return r->claim_nothing(a.undefined);
   const double rest = rest_norm(a), least = at_most(a.c[0]) * kDown;
   if (!(rest < least)) return r->claim_nothing();
   Number inverse = number(1);
@@ -408,9 +409,10 @@ void TaylorArithmetic<D, Number>::power(Model& a, int exponent, Model* r) {
 
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::sqrt(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing();
+  if (!a.exists()) return r->claim_nothing(a.undefined);
   const double rest = rest_norm(a), least = at_most(a.c[0]) * kDown;
-  if (!is_positive(a.c[0]) || !(rest < least)) return r->claim_nothing();
+  if (!(rest < least)) return r->claim_nothing();
+  if (!is_positive(a.c[0])) return r->claim_nothing(true);  // negative everywhere
   Number inverse = number(1);
   encase::divide(inverse, a.c[0]);
   Number next = rounded(a.c[0], [](mpfr_ptr to, mpfr_srcptr x) { mpfr_sqrt(to, x, MPFR_RNDN); });
@@ -430,7 +432,7 @@ void TaylorArithmetic<D, Number>::sqrt(Model& a, Model* r) {
 
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::exp(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing();
+  if (!a.exists()) return r->claim_nothing(a.undefined);
   const double rest = rest_norm(a);
   Number next = rounded(a.c[0], [](mpfr_ptr to, mpfr_srcptr x) { mpfr_exp(to, x, MPFR_RNDN); });
   const double value = at_least(next) * kUp + kUnderflow;
@@ -445,9 +447,10 @@ void TaylorArithmetic<D, Number>::exp(Model& a, Model* r) {
 
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::log(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing();
+  if (!a.exists()) return r->claim_nothing(a.undefined);
   const double rest = rest_norm(a), least = at_most(a.c[0]) * kDown;
-  if (!is_positive(a.c[0]) || !(rest < least)) return r->claim_nothing();
+  if (!(rest < least)) return r->claim_nothing();
+  if (!is_positive(a.c[0])) return r->claim_nothing(true);  // negative everywhere
   Number inverse = number(1);
   encase::divide(inverse, a.c[0]);
   series_[0] = rounded(a.c[0], [](mpfr_ptr to, mpfr_srcptr x) { mpfr_log(to, x, MPFR_RNDN); });
@@ -467,7 +470,7 @@ void TaylorArithmetic<D, Number>::log(Model& a, Model* r) {
 /// sin, cos, sinh, cosh: their derivatives are themselves and another one, up to signs.
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::entire(Model& a, Kind kind, Model* r) {
-  if (!a.exists()) return r->claim_nothing();
+  if (!a.exists()) return r->claim_nothing(a.undefined);
   const double rest = rest_norm(a);
   const bool circular = kind == Kind::Sin || kind == Kind::Cos;
   Number cosine = number(0);
@@ -528,7 +531,7 @@ void TaylorArithmetic<D, Number>::tan(Model& a, Model* r) {
 
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::tanh(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing();
+  if (!a.exists()) return r->claim_nothing(a.undefined);
   // (1 - w) / (1 + w), w = exp(-2 u); the other sign where u is negative, so that w <= 1.
   const bool negative = !is_positive(a.c[0]);
   constant(number(negative ? 2 : -2), 0, &first_);
@@ -549,7 +552,7 @@ void TaylorArithmetic<D, Number>::tanh(Model& a, Model* r) {
 
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::atan(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing();
+  if (!a.exists()) return r->claim_nothing(a.undefined);
   // The derivative is the imaginary part of 1 / (u - i): z^k with z = (u + i) / (1 + u^2).
   const double rest = rest_norm(a), u = at_most(a.c[0]) * kDown;
   const double radius = std::sqrt(1 + u * u) * kDown;
@@ -608,7 +611,7 @@ void TaylorArithmetic<D, Number>::acos(Model& a, Model* r) {
 
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::abs(const Model& a, Model* r) const {
-  if (!a.exists()) return r->claim_nothing();
+  if (!a.exists()) return r->claim_nothing(a.undefined);
   if (!at_point_ && !(rest_norm(a) < at_most(a.c[0]))) return r->claim_nothing();
   if (is_positive(a.c[0]))
     copy(a, r);

@@ -34,9 +34,11 @@ struct TaylorModel {
   /// Entry k is at least the sum of |c_a| kRadius^k over |a| = k.
   std::array<double, kMaxDegree + 1> norm{};
   double error = 0;
+  bool undefined = false;  ///< f has no value anywhere on [-1,1]^D; the error is infinite then
 
   bool exists() const { return std::isfinite(error); }
-  void claim_nothing() {
+  void claim_nothing(bool is_undefined = false) {
+    undefined = is_undefined;
     degree = 0;
     span.fill(0);
     norm.fill(0.0);

@@ -210,7 +210,8 @@ HWY_EXPORT(evaluate_eight);
 
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the roundings of the sums it multiplies
 
-/// Nothing is known of a tile where numbers overflow.
+}  // namespace
+
 void claim_nothing(Tile* tile) {
   for (auto& row : tile->a) row.fill(0.0);
   tile->high_terms.fill(0.0);
@@ -219,11 +220,10 @@ void claim_nothing(Tile* tile) {
       std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-
 CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, bool turned,
                      double error, double relative) {
   tile->degree = std::min(n, Tile::kMaxDegree);
+  tile->undefined = false;
   TileSums sums;
   HWY_DYNAMIC_DISPATCH(fill_tile)
   (coefficients.high(), coefficients.low(), n, coefficients.stride, turned, tile->a[0].data(),

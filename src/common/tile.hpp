@@ -14,13 +14,15 @@
 
 namespace encase {
 
-/// A polynomial on a rectangle, in the rectangle's own coordinates: for |s_k| <= kReach
+/// A function on a rectangle, as a polynomial in the rectangle's own coordinates: for |s_k| <=
+/// kReach
 ///
 ///   f(center + half * s) = sum over i + j <= degree of a[i][j] s_0^i s_1^j  +  e(s).
 ///
 /// What the search asks about f inside the rectangle it asks its tile: the coefficients are those
 /// of an expansion around the centre, so that rounding errors are small beside the values there,
-/// and there are few of them whatever the degree of f. f is scaled as in FilteredFunction.
+/// and there are few of them whatever f is. f is scaled as in FilteredFunction. Infinite errors: f
+/// is not known to be analytic there, or its terms are too large.
 struct Tile {
   static constexpr int kMaxDegree = 15;
   static constexpr int kRow = kMaxDegree + 1;
@@ -40,6 +42,7 @@ struct Tile {
   double slope_error = 0;  ///< |de/ds_k| on the rectangle
   double bend_error = 0;   ///< the second derivatives of e on the rectangle
   double value_error = 0;  ///< of TiledFunction::value on the rectangle
+  bool undefined = false;  ///< f is proved to have no value anywhere on the rectangle
   /// For what is lost where the polynomial of the tile is replaced, on a part of the rectangle, by
   /// its interpolant of degree 7 in either variable (common/patch.hpp): entry k bounds the sums of
   /// the absolute values of the terms with s_0^(8+k), and with s_1^(8+k), around any point.
@@ -57,8 +60,11 @@ struct CoefficientSums {
 CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, bool turned,
                      double error, double relative);
 
-/// A polynomial with tiles that cover a box: one where its degree is low or the box is small, else
-/// a quadtree of them, four of which are made when one is first asked for. May be asked by several
+/// Makes a tile that claims nothing.
+void claim_nothing(Tile* tile);
+
+/// A function with tiles that cover a box: one where its degree is low or the box is small, else a
+/// quadtree of them, four of which are made when one is first asked for. May be asked by several
 /// threads; a tile, and how often the kernel counts, does not depend on who asks when.
 class TiledFunction {
  public:
@@ -69,6 +75,8 @@ class TiledFunction {
 
   const FilteredFunction<2>& polynomial() const { return *f_; }
   const Box<2>& box() const { return root_; }
+  /// Whether tiles lack nothing of f but roundings: it is a polynomial of a low degree.
+  bool fits_tiles() const { return !expression_ && f_->degree() <= Tile::kMaxDegree; }
 
   /// The tile whose rectangle holds the point (one of them on borders; the nearest for a point
   /// outside the box).
@@ -78,8 +86,8 @@ class TiledFunction {
   /// sums of two doubles). Its error is large where f needs more terms than a tile has.
   void expand(const Box<2>& box, int bits, Tile* tile);
 
-  /// f at a point of the tile's rectangle, from the coefficients as sums of two doubles: good to
-  /// tile.value_error + 2^-52 |value|.
+  /// f at a point of the tile's rectangle, from the coefficients as sums of two doubles, or in
+  /// MPFR: good to tile.value_error + 2^-52 |value|, or not a number.
   double value(const Point<2>& point) const;
 
   /// The same at up to eight points, which takes little more time than at one. The value at a point
@@ -102,11 +110,14 @@ class TiledFunction {
   void halve(Expansion& parent, Node* children);
   bool serves(Node& node, Tile& tile, double dropped);
   double make(const Box<2>& box, int bits, bool in_tree, Tile* tile, Expansion* expansion);
+  double make_from_model(int bits, Tile* tile);
   void expand_directly(const Tile& tile, bool in_tree, Expansion* expansion);
   /// What arithmetic with sums of two doubles loses within reach: docs/error-bounds.md.
   double precise_error(const Point<2>& reach) const;
 
   const FilteredFunction<2>* f_;
+  const FilteredExpression<2>* expression_;  ///< what f is, or nothing
+  double value_error_ = 0;                   ///< of an expression
   Kernel* kernel_;
   Box<2> root_;
   std::unique_ptr<Workspace> workspace_;

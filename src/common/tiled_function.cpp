@@ -56,6 +56,7 @@ bool is_quarter(const Box<2>& box, int upper, const Point<2>& center, const Poin
 /// Whether the tile serves for the whole rectangle: its terms of higher degree do not matter, and
 /// patches some times smaller than the rectangle keep close to it.
 bool tile_serves(const Tile& tile, double dropped) {
+  if (tile.undefined) return true;
   static const auto weights = [] {
     std::array<double, 8> w;
     for (int k = 0; k < 8; ++k) w[k] = std::ldexp(interpolation_loss(8 + k).value, -2 * (8 + k));
@@ -67,6 +68,18 @@ bool tile_serves(const Tile& tile, double dropped) {
   double loss = 0;
   for (int k = 0; k < 8; ++k) loss += weights[k] * tile.high_terms[k];
   return dropped <= 0x1p-14 * size && loss <= 0x1p-5 * size;
+}
+
+/// The greatest of some values of an expression, or 1 if there is none.
+double typical_size(const FilteredExpression<2>& f, const Box<2>& box) {
+  double size = 0;
+  for (const double u : {0.1, 0.5, 0.8})
+    for (const double v : {0.2, 0.5, 0.9}) {
+      const double value =
+          f.approximate({box.lo[0] + u * box.width(0), box.lo[1] + v * box.width(1)});
+      if (std::isfinite(value)) size = std::max(size, std::fabs(value));
+    }
+  return size > 0 ? size : 1;
 }
 
 }  // namespace
@@ -174,7 +187,17 @@ struct TiledFunction::Workspace {
 };
 
 TiledFunction::TiledFunction(const FilteredFunction<2>& f, const Box<2>& box, Kernel& kernel)
-    : f_(&f), kernel_(&kernel), root_(box), workspace_(std::make_unique<Workspace>(f.degree())) {
+    : f_(&f),
+      expression_(f.is_polynomial() ? nullptr : &f.expression()),
+      kernel_(&kernel),
+      root_(box),
+      workspace_(std::make_unique<Workspace>(expression_ ? Tile::kMaxDegree : f.degree())) {
+  workspace_->root.box = box;
+  workspace_->root.center = box.center();
+  if (expression_) {
+    value_error_ = 0x1p-100 * typical_size(*expression_, box);
+    return;
+  }
   const std::size_t n = static_cast<std::size_t>(f.degree());
   PairedCoefficients& original = workspace_->original;
   const std::size_t stride = static_cast<std::size_t>(original.stride);
@@ -184,8 +207,6 @@ TiledFunction::TiledFunction(const FilteredFunction<2>& f, const Box<2>& box, Ke
     std::copy_n(high + i * (n + 1), n + 1 - i, original.high() + i * stride);
     std::copy_n(low + i * (n + 1), n + 1 - i, original.low() + i * stride);
   }
-  workspace_->root.box = box;
-  workspace_->root.center = box.center();
 }
 
 TiledFunction::TiledFunction(TiledFunction&&) noexcept = default;
@@ -226,7 +247,7 @@ void TiledFunction::develop(Node& node) {
     for (int i = 0; i < 2; ++i) ((k >> i) % 2 ? child.box.lo : child.box.hi)[i] = node.center[i];
     child.center = child.box.center();
   }
-  if (f_->degree() <= kMaxHalved && kernel_->start_bits <= Kernel::kDoubleBits &&
+  if (!expression_ && f_->degree() <= kMaxHalved && kernel_->start_bits <= Kernel::kDoubleBits &&
       std::isfinite((expansion ? expansion : &w.local)->sum))
     halve(expansion ? *expansion : w.local, children);
   if (expansion) w.give_back(expansion);
@@ -306,6 +327,7 @@ double TiledFunction::make(const Box<2>& box, int bits, bool in_tree, Tile* tile
   const int n = f_->degree();
   place(tile, box);
   tile->bits = bits;
+  if (expression_) return make_from_model(bits, tile);
   const Point<2> reach = reach_of(*tile);
   tile->value_error = precise_error(reach);
   PairedCoefficients& c = expansion->coefficients;
@@ -327,6 +349,29 @@ double TiledFunction::make(const Box<2>& box, int bits, bool in_tree, Tile* tile
   expansion->sum = (sums.kept + sums.dropped) * kUp;
   expansion->halving_loss = 0x1p-900 * growth(reach, n);
   return sums.dropped;
+}
+
+/// Makes a tile, that has its place, of an expression's Taylor model. Returns the error.
+double TiledFunction::make_from_model(int bits, Tile* tile) {
+  using Model = TaylorModel<2, double>;
+  const Model& model =
+      expression_->model(tile->center, tile->half, Tile::kMaxDegree, bits, *kernel_);
+  PairedCoefficients& c = workspace_->scratch;
+  std::fill_n(c.memory->x, 8 * PairedCoefficients::size_for(Tile::kMaxDegree), 0.0);
+  for (int i = 0; model.exists() && i <= model.span[0]; ++i)
+    std::copy_n(&model.c[static_cast<std::size_t>(i * model.stride)],
+                std::min(model.span[1], model.degree - i) + 1, c.high() + i * c.stride);
+  fill(tile, std::max(1, model.degree), c, false, 0, 0);
+  if (!model.exists() || !std::isfinite(tile->error)) {
+    claim_nothing(tile);
+    tile->undefined = model.undefined;
+    return tile->error;
+  }
+  tile->error = model.error;
+  tile->slope_error = Model::kSlope * model.error * kUp;
+  tile->bend_error = Model::kBend * model.error * kUp;
+  tile->value_error = value_error_;
+  return tile->error;
 }
 
 /// The coefficients of y^j in row j, shifted and scaled to the coordinates of a tile.
@@ -364,10 +409,15 @@ double TiledFunction::precise_error(const Point<2>& reach) const {
 }
 
 double TiledFunction::value(const Point<2>& point) const {
+  if (expression_) return expression_->precise_value(point, value_error_, kernel_->max_bits);
   return precise_value(workspace_->original, f_->degree(), point[0], point[1]);
 }
 
 void TiledFunction::values(const Point<2>* points, int count, double* result) const {
+  if (expression_) {
+    for (int k = 0; k < count; ++k) result[k] = value(points[k]);
+    return;
+  }
   alignas(64) double x[8] = {}, y[8] = {}, all[8];
   for (int k = 0; k < count; ++k) {
     x[k] = points[k][0];
