@@ -167,6 +167,15 @@ bool location_is_proved(const Encasement& e, const Crossing& crossing) {
   return false;
 }
 
+/// Whether an undecided entry with the crossing's box says that something about it is open.
+bool is_left_open(const Encasement& e, const Crossing& crossing) {
+  return std::any_of(e.undecided.begin(), e.undecided.end(), [&](const Unresolved& u) {
+    return u.has_box && u.kind == Unresolved::Kind::Budget && u.box.contains(crossing.box) &&
+           std::includes(u.curves.begin(), u.curves.end(), crossing.curves.begin(),
+                         crossing.curves.end());
+  });
+}
+
 void check_place(Claims& claims, const Partition& partition, std::size_t i) {
   const Encasement& e = claims.result;
   const Crossing& crossing = e.crossings[i];
@@ -215,8 +224,8 @@ void check_crossings(Claims& claims, const Partition& partition) {
                       " is not proved to hold exactly one common point."))
       return;
     check_place(part, partition, i);
-    part.require(location_is_proved(e, c), "The location of crossing ", i,
-                 " in the region is not proved.");
+    part.require(location_is_proved(e, c) || (c.location == Location::Inside && is_left_open(e, c)),
+                 "The location of crossing ", i, " in the region is not proved.");
     if (c.rounded)
       part.require(rounding_is_proved(part, c), "The point of crossing ", i,
                    " is not proved to be correctly rounded.");

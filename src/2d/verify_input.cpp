@@ -47,8 +47,7 @@ bool one_to_one(const Encasement& e, const std::vector<int>& inputs,
     const Curve& curve = curve_at(e, c);
     if (curve.sources.size() != 1 || !seen.insert(curve.sources[0]).second) return false;
     const Function<2>& source = input_function(e, curve.sources[0]);
-    if (!source.is_polynomial() ||
-        !proportional(curve.function.polynomial(), source.polynomial()))
+    if (!source.is_polynomial() || !proportional(curve.function.polynomial(), source.polynomial()))
       return false;
   }
   return seen.size() == inputs.size();
