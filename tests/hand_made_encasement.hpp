@@ -24,7 +24,7 @@ inline Polynomial<2> polynomial(std::vector<Polynomial<2>::Term> terms) {
 }
 
 struct Recipe {
-  std::vector<Polynomial<2>> curves;
+  std::vector<Function<2>> curves;
   std::vector<Point<2>> corners;  ///< of the region, counter-clockwise
   std::vector<std::array<double, 3>> splitting_lines;
   std::vector<Split> history;  ///< lines counted after the region's sides

@@ -28,8 +28,7 @@ struct Arrangement {
     int half_edge = -1;  ///< one that begins here
     /// The crossing's `point`; the corner, rounded to nearest; or where the curve meets a side: the
     /// parameter of the side's line rounded to nearest, and then the point of the line there.
-    /// (Where two doubles are so equally near that 800 bits do not tell, one of them, if the curve
-    /// is no polynomial.)
+    /// (Of a curve that is no polynomial as far as 800 bits tell.)
     Point<2> point{};
     bool operator==(const Vertex&) const = default;
   };
