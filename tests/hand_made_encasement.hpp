@@ -256,7 +256,9 @@ class Builder {
 
   bool unresolved(const Box<2>& leaf, const std::vector<int>& curves) const {
     for (const Unresolved& u : e_.degenerate)
-      if (u.has_box && u.box.contains(leaf) && u.curves == curves) return true;
+      if (u.has_box && u.box.contains(leaf) &&
+          (u.curves == curves || u.kind == Unresolved::Kind::NotAnalytic))
+        return true;
     return false;
   }
 
