@@ -162,14 +162,16 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredFunction<
              std::fabs(lower.net.b.back()) > lower.net.radius;
     };
     bool cut = nonzero_cut();
-    if (!cut && sharpen(f, line, &piece, kernel, [&](const Bernstein<1>& net) {
+    // Where f is not proved to be analytic on all of the piece it may be on parts.
+    const bool is_known = std::isfinite(piece.net.radius);
+    if (!cut && is_known && sharpen(f, line, &piece, kernel, [&](const Bernstein<1>& net) {
           halve(net, 0, &lower.net, &upper.net);
           return nonzero_cut();
         })) {
       stack.push_back(std::move(piece));
       continue;
     }
-    for (const int sixteenths : {7, 9, 6, 10}) {
+    for (const int sixteenths : {8, 7, 9, 6, 10}) {
       if (cut) break;
       const double at = piece.lo + (piece.hi - piece.lo) * (sixteenths / 16.0);
       double unused;
@@ -179,7 +181,7 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredFunction<
       lower.bits = upper.bits = std::max(piece.bits, kernel.start_bits);
       f.restrict_to(SegmentChart::of_line(line, piece.lo, at), lower.bits, kernel, &lower.net);
       f.restrict_to(SegmentChart::of_line(line, at, piece.hi), upper.bits, kernel, &upper.net);
-      cut = nonzero_cut();
+      cut = is_known ? nonzero_cut() : sign_on_line(f, line, at, kernel) != Sign::Zero;
     }
     if (!cut) return std::nullopt;
     lower.lo = piece.lo;
