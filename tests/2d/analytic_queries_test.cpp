@@ -42,7 +42,7 @@ std::string text(const Verification& verification) {
 
 /// sin(3 x) = y and cos(2 x) = y + 1/10.
 Encasement sine_and_cosine() {
-  return encased(y() - sin(c(3) * x()), y() + c(1, 10) - cos(c(2) * x()), 2);
+  return encased(y() - sin(c(3) * x()), y() + c(1, 10) - cos(c(2) * x()), 4);
 }
 
 TEST(AnalyticRefine, GoesAsFarAsMemoryAllows) {
