@@ -497,7 +497,9 @@ bool CellAtHand::divide_crossings(const Line& line, double* clearance) {
       if (s >= 0) ++parts_[positive].curves[s].crossings;
   }
   for (const int id : cell_->zones)
-    if (!side(line, partition_.zones[id].box, partition_.kernel())) return false;
+    if (const Zone& zone = partition_.zones[id];
+        !zone.crossable && !side(line, zone.box, partition_.kernel()))
+      return false;
   return true;
 }
 

@@ -54,7 +54,7 @@ bool CellSplitter::find_cut_at_zone(const OpenCell& cell, CellState* settled) {
   const double diameter = task_.bounds.largest_width();
   for (const int k : cell.zones) {
     const Zone& zone = partition_.zones[k];
-    if (zone.box.largest_width() > diameter / 8) break;
+    if (!zone.crossable && zone.box.largest_width() > diameter / 8) break;
     for (const double scale : {1.0, 0.83, 1.21}) {
       Box<2> around = zone.clearance;
       for (int i = 0; i < 2; ++i) {

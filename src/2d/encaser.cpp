@@ -10,10 +10,12 @@
 #include "2d/locate.hpp"
 #include "2d/saddles.hpp"
 #include "2d/shared_leaves.hpp"
+#include "common/analytic_gaps.hpp"
 #include "common/components.hpp"
 #include "common/isolate_roots.hpp"
 #include "common/parallel.hpp"
 #include "common/perturb.hpp"
+#include "common/plane_subdivision.hpp"
 
 namespace encase {
 namespace {
@@ -388,7 +390,31 @@ std::vector<Box<2>> Encaser::clusters_of(const std::vector<Box<2>>& unresolved) 
   return clusters;
 }
 
-void Encaser::report(const Leftover& left, Unresolved::Kind kind, std::vector<int> curves) {
+/// Where curves are not known to be zero sets of analytic functions.
+void Encaser::report_gaps() {
+  for (std::size_t c = 0; c < tiled_.size(); ++c) {
+    std::vector<Box<2>> zones;
+    for (const Box<2>& gap : tiled_[c].gaps())
+      if (lies_inside(zone_of(gap), sides_) != false) zones.push_back(zone_of(gap));
+    for (const Box<2>& box : gathered(std::move(zones), tiled_[c].box())) {
+      Unresolved entry;
+      entry.kind = Unresolved::Kind::NotAnalytic;
+      entry.box = box;
+      entry.has_box = true;
+      entry.curves = {static_cast<int>(c)};
+      entry.reason = "the function of curve '" + result_.curves[c].name +
+                     "' is not defined, has a pole or is not differentiable here, or nearly";
+      result_.degenerate.push_back(std::move(entry));
+    }
+  }
+}
+
+void Encaser::report(Leftover left, Unresolved::Kind kind, std::vector<int> curves) {
+  // What lies in gaps is reported already.
+  std::erase_if(left.unresolved, [&](const Box<2>& box) {
+    return std::any_of(curves.begin(), curves.end(),
+                       [&](int c) { return relation(box, tiled_[c].gaps()) == Relation::Within; });
+  });
   if (left.unresolved.empty()) return;
   std::string names;
   for (const int c : curves)
@@ -427,6 +453,7 @@ void Encaser::isolate_crossings() {
                                           [](const Unresolved& u) { return u.has_box; }),
                            result_.degenerate.end());
   result_.undecided.clear();
+  report_gaps();
   const int n = static_cast<int>(polynomials_.size());
   result_.shared_cover = {};
   curve_roots_.clear();
@@ -588,7 +615,7 @@ void Encaser::collect_zones() {
   std::vector<Box<2>> boxes;
   for (const auto* list : {&result_.degenerate, &result_.undecided})
     for (const Unresolved& entry : *list)
-      if (entry.has_box) boxes.push_back(entry.box);
+      if (entry.has_box && entry.kind != Unresolved::Kind::NotAnalytic) boxes.push_back(entry.box);
   for (std::size_t before = 0; before != boxes.size();) {
     before = boxes.size();
     boxes = clusters_of(boxes);
@@ -610,6 +637,17 @@ void Encaser::collect_zones() {
     margin = std::max(margin, 2 * box.largest_width());
     Zone zone{box, box};
     for (int i = 0; i < 2; ++i) {
+      zone.clearance.lo[i] -= margin;
+      zone.clearance.hi[i] += 1.07 * margin;
+    }
+    features_.zones.push_back(zone);
+  }
+  for (const Unresolved& entry : result_.degenerate) {
+    if (entry.kind != Unresolved::Kind::NotAnalytic) continue;
+    Zone zone{entry.box, entry.box, true};
+    for (int i = 0; i < 2; ++i) {
+      const double margin =
+          0x1p-8 * diameter + 0.5 * std::min(entry.box.width(0), entry.box.width(1));
       zone.clearance.lo[i] -= margin;
       zone.clearance.hi[i] += 1.07 * margin;
     }

@@ -71,12 +71,13 @@ class Encaser {
   void use_region(const Region& region);
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;
   struct Leftover {
-    const std::vector<Box<2>>& unresolved;
+    std::vector<Box<2>> unresolved;
     const Box<2>& root;
     double smallest;  ///< part of the root's width beyond which boxes are not halved
     bool stopped;     ///< the budget had run out
   };
-  void report(const Leftover& left, Unresolved::Kind kind, std::vector<int> curves);
+  void report(Leftover left, Unresolved::Kind kind, std::vector<int> curves);
+  void report_gaps();
   void count_pairs();
   void report_concurrency();
   struct Part;

@@ -46,6 +46,7 @@ NestedTiles::NestedTiles(const std::vector<FilteredFunction<2>>& polynomials,
       const Box<2> box = inner_box(outer.box(), middle);
       if (!outer.box().contains(box) || !is_blurred(outer.at(middle))) break;
       inner.emplace_back(polynomials[c], box, kernels_.emplace_back(kernel.fresh()));
+      inner.back().take_gaps_of(whole[c]);
     }
   }
 }

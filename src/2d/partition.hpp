@@ -59,7 +59,8 @@ struct OpenCell {
 /// A box that resists, grown by what the search keeps clear around it.
 struct Zone {
   Box<2> box;
-  Box<2> clearance;  ///< the cell that holds the zone is cut down to about this box
+  Box<2> clearance;        ///< the cell that holds the zone is cut down to about this box
+  bool crossable = false;  ///< lines may cut it: a curve's function is not analytic there
 };
 
 /// What a line does to a cell.

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/analytic_gaps.hpp"
 #include "common/patch.hpp"
 #include "common/plane_subdivision.hpp"
 
@@ -94,6 +95,11 @@ bool SharedSubdivision::provide_patch(const Box<2>& box, int level, Alive* alive
   const bool known = alive->expanded_at >= 0;
   if (known && (alive->expanded_at + 2 > level || !coarse())) return !coarse();
   TiledFunction& f = curves_.about(alive->curve, box);
+  if (!f.gaps().empty()) {
+    // Nothing more can be told within a gap.
+    const Relation here = relation(box, f.gaps());
+    if (here != Relation::Apart) return here == Relation::Within;
+  }
   const Tile& tile = f.at(box.center());
   for (int axis = 0; axis < 2; ++axis)
     if (0.5 * box.width(axis) > 1.01 * tile.half[axis]) return false;

@@ -119,6 +119,13 @@ bool coarse(const Bernstein<D>& net) {
 }
 
 template <int D>
+bool may_gain(const System<D>& system, const SystemNets<D>& nets) {
+  for (int i = 0; i < D; ++i)
+    if (coarse(nets[i]) && system[i]->precision_helps(nets[i])) return true;
+  return false;
+}
+
+template <int D>
 double expand_system(const System<D>& system, const Box<D>& box, int bits, Kernel& kernel,
                      SystemNets<D>* nets) {
   int degree = 0;
@@ -269,9 +276,13 @@ bool no_relevant_critical_point(const Bernstein<2>& net, Effort effort) {
   return saddle || (effort == Effort::Thorough && flows(net));
 }
 
+namespace {
+
+/// As sign_on_box, by one net.
 template <int D>
-std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box, Kernel& kernel) {
-  Bernstein<D> net;
+std::optional<Sign> sign_by_net(const FilteredFunction<D>& f, const Box<D>& box, Kernel& kernel,
+                                Bernstein<D>* net_on_box) {
+  Bernstein<D>& net = *net_on_box;
   std::optional<Sign> sign;
   climb(
       kernel,
@@ -283,7 +294,39 @@ std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box,
         sign = sign_on_cube(net);
         return sign.has_value();
       },
-      [&] { return drowned(net); });
+      [&] { return drowned(net) && f.precision_helps(net); });
+  return sign;
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box, Kernel& kernel) {
+  thread_local Bernstein<D> net;
+  if (f.is_polynomial()) return sign_by_net(f, box, kernel, &net);
+  // Of an expression on a smaller box nets tell more.
+  constexpr int kMostParts = 256;
+  std::optional<Sign> sign;
+  std::vector<Box<D>> parts{box};
+  for (int visited = 0; !parts.empty(); ++visited) {
+    const Box<D> part = parts.back();
+    parts.pop_back();
+    const auto here = sign_by_net(f, part, kernel, &net);
+    if (here && sign && *here != *sign) return std::nullopt;
+    if (here) {
+      sign = here;
+      continue;
+    }
+    int axis = 0;
+    for (int i = 1; i < D; ++i)
+      if (part.width(i) > part.width(axis)) axis = i;
+    const double middle = part.center()[axis];
+    if (visited == kMostParts || !drowned(net) || !(part.lo[axis] < middle) ||
+        !(middle < part.hi[axis]))
+      return std::nullopt;
+    parts.insert(parts.end(), {part, part});
+    parts[parts.size() - 2].lo[axis] = parts.back().hi[axis] = middle;
+  }
   return sign;
 }
 
@@ -292,8 +335,7 @@ bool no_common_zero(const System<D>& system, const Box<D>& box, Kernel& kernel) 
   SystemNets<D> nets;
   return climb(
       kernel, [&](int bits) { return expand_system<D>(system, box, bits, kernel, &nets); },
-      [&] { return excluded<D>(nets); },
-      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
+      [&] { return excluded<D>(nets); }, [&] { return may_gain<D>(system, nets); });
 }
 
 template <int D>
@@ -301,8 +343,7 @@ bool at_most_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
   SystemNets<D> nets;
   return climb(
       kernel, [&](int bits) { return expand_system<D>(system, box, bits, kernel, &nets); },
-      [&] { return contraction<D>(nets).has_value(); },
-      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
+      [&] { return contraction<D>(nets).has_value(); }, [&] { return may_gain<D>(system, nets); });
 }
 
 template <int D>
@@ -348,7 +389,7 @@ bool exactly_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
         }
         return true;
       },
-      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
+      [&] { return may_gain<D>(system, nets); });
 }
 
 bool no_relevant_critical_point(const FilteredFunction<2>& f, const Box<2>& box, Kernel& kernel) {
@@ -360,7 +401,7 @@ bool no_relevant_critical_point(const FilteredFunction<2>& f, const Box<2>& box,
         return net.radius;
       },
       [&] { return no_relevant_critical_point(net, Effort::Thorough); },
-      [&] { return coarse(net); });
+      [&] { return coarse(net) && f.precision_helps(net); });
 }
 
 #define ENCASE_INSTANTIATE(D)                                                                   \

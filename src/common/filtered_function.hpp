@@ -50,6 +50,12 @@ class FilteredFunction {
       requires(D == 2) {
     std::visit([&](const auto& f) { f.restrict_to(segment, bits, kernel, net); }, filtered_);
   }
+  /// Whether a net from more precise arithmetic could be closer to the function: on large parts of
+  /// the plane an expression's lacks terms, which precision does not bring back.
+  template <int K>
+  bool precision_helps(const Bernstein<K>& net) const {
+    return is_polynomial() || net.radius < 0x1p-32 * largest_coefficient(net);
+  }
   using Value = typename FilteredPolynomial<D>::Value;
   Value evaluate(const Point<D>& point, int bits) const {
     return std::visit([&](const auto& f) { return f.evaluate(point, bits); }, filtered_);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "common/analytic_gaps.hpp"
 #include "common/line_net.hpp"
 #include "common/segments.hpp"
 
@@ -472,6 +473,36 @@ class PathSearch {
   int top_ = 0;  ///< of the stack of parts
 };
 
+/// The parts of [lo, hi] in which a line does not meet boxes, but for what is nearly nothing.
+std::vector<std::array<double, 2>> parts_outside(const std::vector<Box<2>>& boxes, const Path& path,
+                                                 double lo, double hi) {
+  std::vector<std::array<double, 2>> inside, outside;
+  for (const Box<2>& gap : boxes) {
+    const Box<2> box = left_out_at(gap);
+    double from = lo, to = hi;
+    for (int i = 0; i < 2; ++i) {
+      if (path.direction[i] == 0) {
+        if (!(box.lo[i] <= path.base[i] && path.base[i] <= box.hi[i])) to = -HUGE_VAL;
+        continue;
+      }
+      double a = (box.lo[i] - path.base[i]) / path.direction[i],
+             b = (box.hi[i] - path.base[i]) / path.direction[i];
+      if (b < a) std::swap(a, b);
+      from = std::max(from, a);
+      to = std::min(to, b);
+    }
+    if (from < to) inside.push_back({from, to});
+  }
+  std::sort(inside.begin(), inside.end());
+  double last = lo;
+  for (const auto& [from, to] : inside) {
+    if (last < from) outside.push_back({last, from});
+    last = std::max(last, to);
+  }
+  if (last < hi) outside.push_back({last, hi});
+  return outside;
+}
+
 bool finite_interval(double lo, double hi) {
   return std::isfinite(lo) && std::isfinite(hi) && lo < hi;
 }
@@ -483,9 +514,15 @@ bool isolate_on_line(TiledFunction& f, const Line& line, double lo, double hi, i
   if (!finite_interval(lo, hi)) return false;
   const std::size_t before = roots->size();
   const Path path(line, std::max(std::fabs(lo), std::fabs(hi)));
-  if (PathSearch(f, path, max_nodes, kernel, roots).run(lo, hi)) return true;
-  roots->resize(before);
-  return false;
+  PathSearch search(f, path, max_nodes, kernel, roots);
+  bool proved = true;
+  if (f.gaps().empty())
+    proved = search.run(lo, hi);
+  else
+    for (const auto& [from, to] : parts_outside(f.gaps(), path, lo, hi))
+      proved = proved && search.run(from, to);
+  if (!proved) roots->resize(before);
+  return proved;
 }
 
 bool no_root_on_line(TiledFunction& f, const Line& line, double lo, double hi, Kernel& kernel) {

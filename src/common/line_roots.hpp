@@ -21,7 +21,8 @@ struct LineRoot {
 /// Appends all roots of f on the line's parameter interval [lo, hi], in increasing order, in
 /// disjoint intervals within [lo, hi]; all proved simple. False, and nothing appended, if that
 /// cannot be proved (a multiple root, a root at lo or hi, f zero on the line, or more than
-/// max_nodes subdivisions).
+/// max_nodes subdivisions). Where the line meets the gaps of f, or nearly (`left_out_at`), nothing
+/// is said.
 bool isolate_on_line(TiledFunction& f, const Line& line, double lo, double hi, int max_nodes,
                      Kernel& kernel, std::vector<LineRoot>* roots);
 

@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "common/analytic_gaps.hpp"
+#include "common/box_tests.hpp"
 #include "common/cubic_system.hpp"
 #include "common/patch.hpp"
 #include "common/subdivision.hpp"
@@ -99,6 +101,7 @@ class PlaneSubdivision {
         limits_(limits),
         kernel_(kernel),
         stack_(std::make_unique_for_overwrite<Node[]>(kLevelsPerBand + 2)) {
+    for (const TiledFunction* f : polynomials) has_gaps_ = has_gaps_ || !f->gaps().empty();
     if (N == 1)
       count_ = patch_count(polynomials[0]->polynomial().degree());
     else
@@ -129,6 +132,7 @@ class PlaneSubdivision {
   void descend(const Box<2>& box, int level, int budget, Visit visit);
   template <class Visit>
   int token_of(Node& node, Visit visit);
+  std::optional<int> token_at_gap(const Node& node);
   bool provide_net(Node& node);
   bool provide_base(Node& node);
   bool make_cubic(Node& node);
@@ -156,6 +160,7 @@ class PlaneSubdivision {
   int count_ = Patch::kMaxCount;        ///< of the patches' coefficients in either variable
   int boxes_ = 0;                       ///< visited; those that had to wait twice
   int deepest_ = 0;                     ///< the level beyond which nothing is halved
+  bool has_gaps_ = false;               ///< some function is not analytic everywhere
   bool stopped_ = false;
   bool unresolved_ = false;
 };
@@ -290,8 +295,29 @@ int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
   node.part = kWhole;
   if (!node.inside && outside(node)) return cover::kOutside;
   if (limits_.places && meets_none(*limits_.places, node.box)) return cover::kExcluded;
+  if (has_gaps_)
+    if (const auto token = token_at_gap(node)) return *token;
   if (!provide_net(node)) return node.excluded ? cover::kExcluded : wider_axis(node.box);
   return visit(node);
+}
+
+/// What becomes of a box where a function is not analytic, or of one that such a place meets:
+/// another function may exclude it, else it stays unresolved, or is halved.
+template <int N>
+std::optional<int> PlaneSubdivision<N>::token_at_gap(const Node& node) {
+  Relation most = Relation::Apart;
+  std::array<bool, N> is_free;
+  for (int i = 0; i < N; ++i) {
+    const Relation here = relation(node.box, polynomials_[i]->gaps());
+    is_free[i] = here == Relation::Apart;
+    if (most != Relation::Within && here != Relation::Apart) most = here;
+  }
+  if (most == Relation::Apart) return std::nullopt;
+  if (N > 1)
+    for (int i = 0; i < N; ++i)
+      if (is_free[i] && sign_on_box(polynomials_[i]->polynomial(), node.box, kernel_))
+        return cover::kExcluded;
+  return most == Relation::Within ? cover::kUnresolved : wider_axis(node.box);
 }
 
 /// Whether the box lies outside one of the half planes; notes if it lies in all of them.
@@ -428,7 +454,8 @@ bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile
     const double before = *used ? net->radius : HUGE_VAL;
     *used = local_tile(node, i, bits);
     make(**used);
-    if (!coarse(*net, node.level) || (bits > Kernel::kDoubleBits && !(net->radius < 0.5 * before)))
+    if (!coarse(*net, node.level) || polynomials_[i]->wants_smaller(**used) ||
+        (bits > Kernel::kDoubleBits && !(net->radius < 0.5 * before)))
       break;
   }
   return true;

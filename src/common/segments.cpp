@@ -80,6 +80,7 @@ bool sharpen(const FilteredFunction<2>& f, const Line& line, Piece* piece, Kerne
     f.restrict_to(SegmentChart::of_line(line, piece->lo, piece->hi), bits, kernel, &piece->net);
     piece->bits = bits;
     if (settled(piece->net)) return true;
+    if (!f.precision_helps(piece->net)) return false;
     // The rounding to doubles bounds what precision can gain.
     if (from > Kernel::kDoubleBits && !(piece->net.radius < 0.5 * before)) return false;
     bits = kernel.next(bits);
@@ -161,17 +162,16 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredFunction<
       return std::fabs(upper.net.b.front()) > upper.net.radius &&
              std::fabs(lower.net.b.back()) > lower.net.radius;
     };
-    bool cut = nonzero_cut();
-    // Where f is not proved to be analytic on all of the piece it may be on parts.
-    const bool is_known = std::isfinite(piece.net.radius);
-    if (!cut && is_known && sharpen(f, line, &piece, kernel, [&](const Bernstein<1>& net) {
+    bool cut = nonzero_cut() || (!f.precision_helps(piece.net) &&
+                                 sign_on_line(f, line, middle, kernel) != Sign::Zero);
+    if (!cut && sharpen(f, line, &piece, kernel, [&](const Bernstein<1>& net) {
           halve(net, 0, &lower.net, &upper.net);
           return nonzero_cut();
         })) {
       stack.push_back(std::move(piece));
       continue;
     }
-    for (const int sixteenths : {8, 7, 9, 6, 10}) {
+    for (const int sixteenths : {7, 9, 6, 10}) {
       if (cut) break;
       const double at = piece.lo + (piece.hi - piece.lo) * (sixteenths / 16.0);
       double unused;
@@ -181,7 +181,7 @@ std::optional<std::vector<RootInterval>> isolate_on_line(const FilteredFunction<
       lower.bits = upper.bits = std::max(piece.bits, kernel.start_bits);
       f.restrict_to(SegmentChart::of_line(line, piece.lo, at), lower.bits, kernel, &lower.net);
       f.restrict_to(SegmentChart::of_line(line, at, piece.hi), upper.bits, kernel, &upper.net);
-      cut = is_known ? nonzero_cut() : sign_on_line(f, line, at, kernel) != Sign::Zero;
+      cut = nonzero_cut();
     }
     if (!cut) return std::nullopt;
     lower.lo = piece.lo;
@@ -346,7 +346,7 @@ bool no_root(const FilteredFunction<2>& f, double lo, double hi, Kernel& kernel,
         f.restrict_to(chart(piece.lo, piece.hi), bits, kernel, &piece.net);
         piece.bits = bits;
         sign = sign_on_cube(piece.net);
-        if (sign || !drowned(piece.net)) break;
+        if (sign || !drowned(piece.net) || !f.precision_helps(piece.net)) break;
         if (bits > Kernel::kDoubleBits && !(piece.net.radius < 0.5 * radius)) break;
         radius = piece.net.radius;
       }

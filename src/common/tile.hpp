@@ -75,8 +75,16 @@ class TiledFunction {
 
   const FilteredFunction<2>& polynomial() const { return *f_; }
   const Box<2>& box() const { return root_; }
+  /// Where f is not proved to be analytic: none of a polynomial.
+  const std::vector<Box<2>>& gaps() const { return gaps_; }
+  /// Takes those of the same function in a larger box.
+  void take_gaps_of(const TiledFunction& outer) { gaps_ = outer.gaps_; }
   /// Whether tiles lack nothing of f but roundings: it is a polynomial of a low degree.
   bool fits_tiles() const { return !expression_ && f_->degree() <= Tile::kMaxDegree; }
+  /// Whether a smaller tile, and not a more precise one, would be closer to f.
+  bool wants_smaller(const Tile& tile) const {
+    return expression_ && !(tile.error < 0x1p-32 * tile.sum);
+  }
 
   /// The tile whose rectangle holds the point (one of them on borders; the nearest for a point
   /// outside the box).
@@ -118,6 +126,7 @@ class TiledFunction {
   const FilteredFunction<2>* f_;
   const FilteredExpression<2>* expression_;  ///< what f is, or nothing
   double value_error_ = 0;                   ///< of an expression
+  std::vector<Box<2>> gaps_;
   Kernel* kernel_;
   Box<2> root_;
   std::unique_ptr<Workspace> workspace_;

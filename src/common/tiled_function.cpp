@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "common/analytic_gaps.hpp"
 #include "common/paired_coefficients.hpp"
 #include "common/patch.hpp"
 #include "common/tile.hpp"
@@ -196,6 +197,7 @@ TiledFunction::TiledFunction(const FilteredFunction<2>& f, const Box<2>& box, Ke
   workspace_->root.center = box.center();
   if (expression_) {
     value_error_ = 0x1p-100 * typical_size(*expression_, box);
+    gaps_ = find_gaps(*expression_, box, kernel);
     return;
   }
   const std::size_t n = static_cast<std::size_t>(f.degree());
