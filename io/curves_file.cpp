@@ -13,6 +13,7 @@
 #include <utility>
 #include <variant>
 
+#include "common/expression_program.hpp"
 #include "expression_parser.hpp"
 #include "json_tree.hpp"
 
@@ -42,8 +43,21 @@ struct Piece {
 
 std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// Why a polynomial is no curve, or nothing.
-std::string complaint(const std::string& name, const Polynomial<2>& f) {
+/// Why the zeros of an expression are no curve, or nothing.
+std::string complaint(const std::string& name, const Expression& f) {
+  if (!f.uses(0) && !f.uses(1))
+    return "curve " + in_quotes(name) + " has no variable: it is a constant";
+  ExpressionProgram<2>::Workspace<Interval> workspace;
+  const Interval line = elementary::whole_line();
+  if (ExpressionProgram<2>(f).value<Interval>({line, line}, workspace).nowhere())
+    return "curve " + in_quotes(name) + " has no value at any point";
+  return {};
+}
+
+/// Why a function is no curve, or nothing.
+std::string complaint(const std::string& name, const Function<2>& function) {
+  if (!function.is_polynomial()) return complaint(name, function.expression());
+  const Polynomial<2>& f = function.polynomial();
   if (f.is_zero())
     return "curve " + in_quotes(name) + " is the zero polynomial, which vanishes everywhere";
   if (f.is_constant())
@@ -199,13 +213,13 @@ class TextReader {
     if (!is_new)
       return fail(where.offset, "there is already a curve " + in_quotes(name) + ", in line " +
                                     std::to_string(line_number(previous->second)));
-    auto f = parse_expression<2>(expression.text);
+    auto f = parse_function<2>(expression.text);
     if (const auto* e = std::get_if<SyntaxError>(&f))
       return fail(expression.offset + e->offset, e->message);
-    auto& polynomial = std::get<Polynomial<2>>(f);
-    const std::string reason = complaint(name, polynomial);
+    auto& function = std::get<Function<2>>(f);
+    const std::string reason = complaint(name, function);
     if (!reason.empty()) return fail(expression.offset, reason);
-    file_.curves.push_back({name, std::move(polynomial)});
+    file_.curves.push_back({name, std::move(function)});
     return true;
   }
 
@@ -302,7 +316,7 @@ class JsonReader {
     const std::string path = "curves[" + std::to_string(index) + "]";
     if (value.kind != Kind::Object) return fail(path, "expected an object");
     std::string name = "c" + std::to_string(index);
-    std::optional<Polynomial<2>> f;
+    std::optional<Function<2>> f;
     for (const auto& [key, item] : value.members) {
       const std::string item_path = path + "." + key;
       if (key == "name") {
@@ -329,18 +343,18 @@ class JsonReader {
     return true;
   }
 
-  bool read_expression(const JsonTree& item, const std::string& path, Polynomial<2>* f) {
+  bool read_expression(const JsonTree& item, const std::string& path, Function<2>* f) {
     if (item.kind != Kind::String) return fail(path, "expected a string");
-    auto parsed = parse_expression<2>(item.text);
+    auto parsed = parse_function<2>(item.text);
     if (const auto* e = std::get_if<SyntaxError>(&parsed)) {
       error_ = bad(located(source_ + ": " + path, item.text, *e));
       return false;
     }
-    *f = std::move(std::get<Polynomial<2>>(parsed));
+    *f = std::move(std::get<Function<2>>(parsed));
     return true;
   }
 
-  bool read_terms(const JsonTree& list, const std::string& path, Polynomial<2>* f) {
+  bool read_terms(const JsonTree& list, const std::string& path, Function<2>* f) {
     if (list.kind != Kind::Array) return fail(path, "expected [[i, j, \"coefficient\"], ...]");
     std::vector<Polynomial<2>::Term> terms;
     for (std::size_t k = 0; k < list.items.size(); ++k) {
@@ -422,9 +436,15 @@ Result<CurvesFile> load_curves(const std::string& path) {
 }
 
 Result<Polynomial<2>> parse_polynomial(const std::string& text, const std::string& source) {
-  auto f = parse_expression<2>(text);
+  auto f = parse_polynomial<2>(text);
   if (const auto* e = std::get_if<SyntaxError>(&f)) return bad(located(source, text, *e));
   return std::move(std::get<Polynomial<2>>(f));
+}
+
+Result<Function<2>> parse_function(const std::string& text, const std::string& source) {
+  auto f = parse_function<2>(text);
+  if (const auto* e = std::get_if<SyntaxError>(&f)) return bad(located(source, text, *e));
+  return std::move(std::get<Function<2>>(f));
 }
 
 Result<Region> parse_region(const std::string& text, const std::string& source) {

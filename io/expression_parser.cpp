@@ -2,33 +2,17 @@
 #include "expression_parser.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <optional>
-#include <string>
+#include <limits>
 #include <utility>
+
+#include "formula_parser.hpp"
 
 namespace encase {
 
 namespace {
 
-constexpr int kMaxDepth = 200;
 constexpr std::size_t kMaxBits = 1000000;
-
-constexpr std::array<std::string_view, 24> kFunctions = {
-    "sin",    "cos",    "tan",  "cot",  "asin", "acos", "atan", "arcsin",
-    "arccos", "arctan", "sinh", "cosh", "tanh", "exp",  "ln",   "log",
-    "log10",  "sqrt",   "cbrt", "abs",  "sign", "min",  "max",  "atan2"};
-
-bool is_letter(char c) { return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || c == '_'; }
-bool is_digit(char c) { return '0' <= c && c <= '9'; }
-
-struct Token {
-  enum class Kind { Number, Name, Symbol, End };
-  Kind kind = Kind::End;
-  std::string_view text;  // "**" is given as "^"
-  std::size_t offset = 0;
-};
+constexpr char kTooManyBits[] = "a coefficient has more than a million bits";
 
 /// The number of bits of the largest numerator or denominator.
 template <int D>
@@ -40,259 +24,64 @@ std::size_t coefficient_bits(const Polynomial<D>& f) {
   return bits;
 }
 
-/// Recursive descent. Every function returns nothing once an error is recorded.
+/// Makes polynomials.
 template <int D>
-class Parser {
+class PolynomialAlgebra : public FormulaError {
  public:
-  explicit Parser(std::string_view text) : text_(text) { advance(); }
+  using Value = Polynomial<D>;
 
-  std::variant<Polynomial<D>, SyntaxError> parse() {
-    auto result = sum();
-    if (result && is_symbol('=')) {
-      advance();
-      auto right = sum();
-      if (right && is_symbol('=')) fail("there is more than one '='");
-      if (right) *result = *result - *right;
-    }
-    if (!error_ && token_.kind != Token::Kind::End)
-      fail(is_symbol(')') ? "')' without a '(' before it" : "unexpected " + name_of(token_));
-    if (error_) return *error_;
-    return std::move(*result);
-  }
-
- private:
-  using Value = std::optional<Polynomial<D>>;
-  static constexpr std::string_view kVariables = std::string_view("xyz").substr(0, D);
-
-  /// Records the first error only, at the current token unless told otherwise.
-  std::nullopt_t fail(std::string message) { return fail(std::move(message), token_.offset); }
-  std::nullopt_t fail(std::string message, std::size_t offset) {
-    if (!error_) error_ = SyntaxError{offset, std::move(message)};
-    return std::nullopt;
-  }
-
-  static std::string name_of(const Token& token) {
-    if (token.kind == Token::Kind::End) return "end of the expression";
-    return "'" + std::string(token.text) + "'";
-  }
-
-  bool is_symbol(char c) const {
-    return token_.kind == Token::Kind::Symbol && token_.text.front() == c;
-  }
-
-  void advance() {
-    previous_ = token_.kind;
-    while (position_ < text_.size() && (text_[position_] == ' ' || text_[position_] == '\t' ||
-                                        text_[position_] == '\r' || text_[position_] == '\n'))
-      ++position_;
-    token_ = {Token::Kind::End, {}, position_};
-    if (position_ == text_.size()) return;
-    const std::size_t begin = position_;
-    const char c = text_[begin];
-    const auto at = [this](std::size_t k) { return k < text_.size() ? text_[k] : '\0'; };
-    if (is_digit(c) || (c == '.' && is_digit(at(begin + 1)))) {
-      while (is_digit(at(position_))) ++position_;
-      if (at(position_) == '.') ++position_;
-      while (is_digit(at(position_))) ++position_;
-      if (at(position_) == 'e' || at(position_) == 'E') {
-        // An exponent only if digits follow: in `2e` and `2exp(x)` the letter begins a name.
-        std::size_t digits = position_ + 1;
-        if (at(digits) == '-' || at(digits) == '+') ++digits;
-        if (is_digit(at(digits))) {
-          while (is_digit(at(digits))) ++digits;
-          position_ = digits;
-        }
-      }
-      token_.kind = Token::Kind::Number;
-    } else if (is_letter(c)) {
-      while (is_letter(at(position_)) || is_digit(at(position_))) ++position_;
-      // A run of variables is a product of tokens: in xy^2 the exponent belongs to y alone.
-      if (text_.substr(begin, position_ - begin).find_first_not_of(kVariables) ==
-          std::string_view::npos)
-        position_ = begin + 1;
-      token_.kind = Token::Kind::Name;
-    } else if (std::string_view("+-*/^()=").find(c) != std::string_view::npos) {
-      token_.kind = Token::Kind::Symbol;
-      position_ = begin + 1;
-      if (c == '*' && at(position_) == '*') {
-        ++position_;
-        token_.text = "^";
-        return;
-      }
-    } else {
-      fail("unexpected character " + quoted_character(text_, begin), begin);
-      position_ = text_.size();  // parsing ends here
-      return;
-    }
-    token_.text = text_.substr(begin, position_ - begin);
-  }
-
-  Value sum() {
-    // Terms are collected and added up together: one by one they would cost their number squared.
-    std::vector<typename Polynomial<D>::Term> terms;
-    std::size_t compact = 0;
-    bool negative = false;
-    for (;;) {
-      auto next = product();
-      if (!next) return std::nullopt;
-      if (negative) *next = -*next;
-      terms.insert(terms.end(), next->terms().begin(), next->terms().end());
-      if (terms.size() > 2 * compact + 4096) {
-        terms = Polynomial<D>::from_terms(std::move(terms)).terms();
-        compact = terms.size();
-      }
-      if (!is_symbol('+') && !is_symbol('-')) break;
-      negative = is_symbol('-');
-      advance();
-    }
-    return Polynomial<D>::from_terms(std::move(terms));
-  }
-
-  bool begins_factor() const {
-    return token_.kind == Token::Kind::Number || token_.kind == Token::Kind::Name || is_symbol('(');
-  }
-
-  Value product() {
-    auto result = factor();
-    while (result) {
-      const std::size_t offset = token_.offset;
-      if (is_symbol('*')) {
-        advance();
-        auto right = factor();
-        result = right ? times(*result, *right, offset) : std::nullopt;
-      } else if (is_symbol('/')) {
-        advance();
-        const std::size_t divisor = token_.offset;
-        auto right = factor();
-        result = right ? divided(*result, *right, divisor) : std::nullopt;
-      } else if (begins_factor()) {
-        if (token_.kind == Token::Kind::Number && previous_ == Token::Kind::Number)
-          return fail("a number follows a number; write '*' between them");
-        auto right = factor();
-        result = right ? times(*result, *right, offset) : std::nullopt;
-      } else {
-        break;
+  /// Terms are collected and added up together: one by one they would cost their number squared.
+  class Sum {
+   public:
+    void add(Value next, bool negative) {
+      if (negative) next = -next;
+      terms_.insert(terms_.end(), next.terms().begin(), next.terms().end());
+      if (terms_.size() > 2 * compact_ + 4096) {
+        terms_ = Polynomial<D>::from_terms(std::move(terms_)).terms();
+        compact_ = terms_.size();
       }
     }
-    return result;
+    Value result() { return Polynomial<D>::from_terms(std::move(terms_)); }
+
+   private:
+    std::vector<typename Polynomial<D>::Term> terms_;
+    std::size_t compact_ = 0;
+  };
+
+ protected:
+  using Made = std::optional<Value>;
+
+  Made within_limits(Value value, std::size_t) { return value; }
+  Value of_number(const Rational& value) { return Polynomial<D>::constant(value); }
+  Value of_variable(int axis) { return Polynomial<D>::variable(axis); }
+  Value negated(const Value& a) { return -a; }
+
+  Made of_irrational(Operation operation, std::size_t offset) {
+    return fail(std::string("the constant '") + (operation == Operation::Pi ? "pi" : "e") +
+                    "' is irrational; a polynomial has rational coefficients",
+                offset, Refusal::NoPolynomial);
   }
 
-  Value factor() {
-    bool negative = false;
-    while (is_symbol('+') || is_symbol('-')) {
-      negative ^= is_symbol('-');
-      advance();
-    }
-    auto result = power();
-    if (result && negative) result = -*result;
-    return result;
-  }
-
-  Value power() {
-    auto base = primary();
-    if (!base || !is_symbol('^')) return base;
-    advance();
-    const std::size_t offset = token_.offset;
-    if (++depth_ > kMaxDepth) return fail("the expression is nested too deeply");
-    const auto exponent = factor();
-    --depth_;
-    return exponent ? raised(*base, *exponent, offset) : std::nullopt;
-  }
-
-  Value primary() {
-    switch (token_.kind) {
-      case Token::Kind::Number:
-        return number();
-      case Token::Kind::Name:
-        return name();
-      case Token::Kind::Symbol:
-        if (is_symbol('(')) return parenthesis();
-        break;
-      case Token::Kind::End:
-        break;
-    }
-    return fail("expected a number, a variable or '(' before " + name_of(token_));
-  }
-
-  Value parenthesis() {
-    const std::size_t open = token_.offset;
-    if (++depth_ > kMaxDepth) return fail("the expression is nested too deeply");
-    advance();
-    auto result = sum();
-    if (!result) return std::nullopt;
-    if (!is_symbol(')')) {
-      if (token_.kind == Token::Kind::End) return fail("'(' without a ')' after it", open);
-      return fail("expected ')' before " + name_of(token_));
-    }
-    advance();
-    --depth_;
-    return result;
-  }
-
-  Value number() {
-    Rational value;
-    if (!parse_rational(std::string(token_.text).c_str(), &value))
-      return fail("the exponent of " + name_of(token_) + " is too large");
-    advance();
-    return Polynomial<D>::constant(value);
-  }
-
-  Value name() {
-    const std::string name(token_.text);
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (name.size() == 1 && kVariables.find(name[0]) != std::string_view::npos) {
-      advance();
-      return Polynomial<D>::variable(static_cast<int>(kVariables.find(name[0])));
-    }
-    if (lower == "nan" || lower == "inf" || lower == "infinity")
-      return fail("'" + name + "' is not a number a polynomial can have");
-    if (name == "pi" || name == "e")
-      return fail(
-          "the constant '" + name +
-          "' is irrational; so far only polynomials with rational coefficients are supported");
-    if (std::find(kFunctions.begin(), kFunctions.end(), lower) != kFunctions.end())
-      return fail("the function '" + name + "' is not supported: so far curves are polynomials");
-    std::string message = "unknown variable '" + name + "'; ";
-    if (D == 1)
-      message += "the variable is x";
-    else
-      message += D == 2 ? "the variables are x and y" : "the variables are x, y and z";
-    if (kVariables.find(name[0]) != std::string_view::npos && name.size() > 1 &&
-        name.find_first_not_of("0123456789", 1) == std::string::npos)
-      message += std::string("; a power is written ") + name[0] + "^" + name.substr(1);
-    return fail(message);
-  }
-
-  std::nullopt_t too_high(long long degree, std::size_t offset) {
-    return fail("the degree is " + std::to_string(degree) + "; polynomials are limited to degree " +
-                    std::to_string(kMaxDegree),
-                offset);
-  }
-  std::nullopt_t too_large(std::size_t offset) {
-    return fail("a coefficient has more than a million bits", offset);
-  }
-
-  Value times(const Polynomial<D>& a, const Polynomial<D>& b, std::size_t offset) {
+  Made times(const Value& a, const Value& b, std::size_t offset) {
     if (a.is_zero() || b.is_zero()) return Polynomial<D>();
     if (a.degree() + b.degree() > kMaxDegree) return too_high(a.degree() + b.degree(), offset);
     if (coefficient_bits(a) + coefficient_bits(b) > kMaxBits) return too_large(offset);
     return a * b;
   }
 
-  Value divided(const Polynomial<D>& a, const Polynomial<D>& b, std::size_t offset) {
+  Made divided(const Value& a, const Value& b, std::size_t offset) {
     if (b.is_zero()) return fail("division by zero", offset);
-    if (!b.is_constant()) return fail("polynomials can only be divided by constants", offset);
+    if (!b.is_constant())
+      return fail("polynomials can only be divided by constants", offset, Refusal::NoPolynomial);
     return times(a, Polynomial<D>::constant(1 / b.terms()[0].coefficient), offset);
   }
 
-  Value raised(const Polynomial<D>& base, const Polynomial<D>& exponent, std::size_t offset) {
+  Made raised(const Value& base, const Value& exponent, std::size_t offset) {
     constexpr char kRule[] = "the exponent must be an integer that is not negative";
-    if (!exponent.is_constant()) return fail(kRule, offset);
-    const Rational value = exponent.is_zero() ? Rational(0) : exponent.terms()[0].coefficient;
-    if (value.get_den() != 1) return fail(kRule, offset);
-    if (value < 0 && !base.is_constant()) return fail(kRule, offset);
+    if (!exponent.is_constant()) return fail(kRule, offset, Refusal::NoPolynomial);
+    const Rational value = constant(exponent);
+    if (value.get_den() != 1) return fail(kRule, offset, Refusal::NoPolynomial);
+    if (value < 0 && !base.is_constant()) return fail(kRule, offset, Refusal::NoPolynomial);
     if (value < 0 && base.is_zero()) return fail("division by zero", offset);
     if (value == 0) return Polynomial<D>::constant(1);
     if (base.is_zero()) return Polynomial<D>();
@@ -307,7 +96,7 @@ class Parser {
       if (base.is_constant()) return too_large(offset);
       return fail("the exponent is " + value.get_str() + "; polynomials are limited to degree " +
                       std::to_string(kMaxDegree),
-                  offset);
+                  offset, Refusal::Limit);
     }
     const int n = static_cast<int>(e.get_si());
     if (static_cast<long long>(n) * base.degree() > kMaxDegree)
@@ -318,23 +107,171 @@ class Parser {
     return result;
   }
 
-  std::string_view text_;
-  std::size_t position_ = 0;
-  Token token_;
-  Token::Kind previous_ = Token::Kind::End;
-  int depth_ = 0;
-  std::optional<SyntaxError> error_;
+  Made called(Operation operation, const Value& a, std::size_t offset) {
+    if (operation != Operation::Abs || !a.is_constant()) return no_polynomial(operation, offset);
+    return Polynomial<D>::constant(abs(constant(a)));
+  }
+  Made called(Operation operation, const Value& a, const Value& b, std::size_t offset) {
+    if (!a.is_constant() || !b.is_constant()) return no_polynomial(operation, offset);
+    const Rational first = constant(a), second = constant(b);
+    return Polynomial<D>::constant(operation == Operation::Min ? std::min(first, second)
+                                                               : std::max(first, second));
+  }
+
+ private:
+  static Rational constant(const Value& a) {
+    return a.is_zero() ? Rational(0) : a.terms()[0].coefficient;
+  }
+  std::nullopt_t no_polynomial(Operation operation, std::size_t offset) {
+    return fail(std::string("the function '") + function_name(operation) +
+                    "' cannot be part of a polynomial",
+                offset, Refusal::NoPolynomial);
+  }
+  std::nullopt_t too_high(long long degree, std::size_t offset) {
+    return fail("the degree is " + std::to_string(degree) + "; polynomials are limited to degree " +
+                    std::to_string(kMaxDegree),
+                offset, Refusal::Limit);
+  }
+  std::nullopt_t too_large(std::size_t offset) {
+    return fail(kTooManyBits, offset, Refusal::Limit);
+  }
+};
+
+std::size_t bits_of(const Rational& value) {
+  return std::max(mpz_sizeinbase(value.get_num_mpz_t(), 2),
+                  mpz_sizeinbase(value.get_den_mpz_t(), 2));
+}
+
+/// Makes expressions as they are written.
+class ExpressionAlgebra : public FormulaError {
+ public:
+  using Value = Expression;
+
+  class Sum {
+   public:
+    void add(Value next, bool negative) {
+      if (!sum_)
+        sum_ = std::move(next);
+      else
+        sum_ = negative ? *sum_ - next : *sum_ + next;
+    }
+    Value result() { return std::move(*sum_); }
+
+   private:
+    std::optional<Value> sum_;
+  };
+
+  /// Whether something has been read that no polynomial has.
+  bool is_beyond_polynomials() const { return beyond_; }
+
+ protected:
+  using Made = std::optional<Value>;
+
+  Made within_limits(Value value, std::size_t offset) {
+    if (value.size() > kMaxOperations)
+      return fail("the expression has more than " + std::to_string(kMaxOperations) + " operations",
+                  offset);
+    if (value.constant() && bits_of(*value.constant()) > kMaxBits)
+      return fail(kTooManyBits, offset);
+    return value;
+  }
+  Value of_number(const Rational& value) { return Expression(value); }
+  Value of_variable(int axis) { return Expression::variable(axis); }
+  Value of_irrational(Operation operation, std::size_t) {
+    beyond_ = true;
+    return operation == Operation::Pi ? Expression::pi() : Expression::euler();
+  }
+  Value negated(const Value& a) { return -a; }
+  Made times(const Value& a, const Value& b, std::size_t) { return a * b; }
+
+  Made divided(const Value& a, const Value& b, std::size_t offset) {
+    if (!b.constant()) beyond_ = true;
+    if (b.constant() && *b.constant() == 0) return fail("division by zero", offset);
+    return a / b;
+  }
+
+  Made raised(const Value& base, const Value& exponent, std::size_t offset) {
+    const Rational* value = exponent.constant();
+    if (!value || (*value < 0 && !base.constant()) || value->get_den() != 1) beyond_ = true;
+    if (!value || value->get_den() > 2) return any_power(base, exponent);
+    if (base == Expression::euler() && value->get_den() == 2)
+      return Expression::apply(Operation::Exp, exponent);
+    const Integer n = value->get_num();
+    if (abs(n) > kMaxExponent)
+      return fail("the exponent is " + value->get_str() + ", larger than a million", offset);
+    const int power = static_cast<int>(n.get_si());
+    if (value->get_den() == 2) return Expression::apply(Operation::Sqrt, base).power(power);
+    if (const Rational* c = base.constant()) {
+      if (power < 0 && *c == 0) return fail("division by zero", offset);
+      if (abs(*c) != 1 && static_cast<std::size_t>(std::abs(power)) > kMaxBits / bits_of(*c))
+        return fail(kTooManyBits, offset);
+    }
+    return base.power(power);
+  }
+
+  Made called(Operation operation, const Value& a, std::size_t) {
+    Value result = Expression::apply(operation, a);
+    if (!result.constant()) beyond_ = true;
+    return result;
+  }
+  Made called(Operation operation, const Value& a, const Value& b, std::size_t) {
+    Value result = Expression::apply(operation, a, b);
+    if (!result.constant()) beyond_ = true;
+    return result;
+  }
+
+ private:
+  static constexpr int kMaxExponent = 1000000;
+
+  /// exp(exponent log(base)).
+  static Value any_power(const Value& base, const Value& exponent) {
+    if (base == Expression::euler()) return Expression::apply(Operation::Exp, exponent);
+    return Expression::apply(Operation::Exp, exponent * Expression::apply(Operation::Log, base));
+  }
+
+  bool beyond_ = false;
 };
 
 }  // namespace
 
 template <int D>
-std::variant<Polynomial<D>, SyntaxError> parse_expression(std::string_view text) {
-  return Parser<D>(text).parse();
+std::variant<Polynomial<D>, SyntaxError> parse_polynomial(std::string_view text) {
+  FormulaParser<D, PolynomialAlgebra<D>> parser(text);
+  auto polynomial = parser.parse();
+  if (!polynomial) return parser.error();
+  return std::move(*polynomial);
 }
 
-template std::variant<Polynomial<1>, SyntaxError> parse_expression<1>(std::string_view);
-template std::variant<Polynomial<2>, SyntaxError> parse_expression<2>(std::string_view);
-template std::variant<Polynomial<3>, SyntaxError> parse_expression<3>(std::string_view);
+template <int D>
+std::variant<Expression, SyntaxError> parse_expression(std::string_view text) {
+  FormulaParser<D, ExpressionAlgebra> parser(text);
+  auto expression = parser.parse();
+  if (!expression) return parser.error();
+  return std::move(*expression);
+}
+
+template <int D>
+std::variant<Function<D>, SyntaxError> parse_function(std::string_view text) {
+  FormulaParser<D, PolynomialAlgebra<D>> polynomials(text);
+  if (auto polynomial = polynomials.parse()) return Function<D>(std::move(*polynomial));
+  if (polynomials.refusal() == Refusal::Syntax) return polynomials.error();
+  // From the beginning again: only now it is worth while to keep the expression. A polynomial
+  // beyond a limit may be part of what is none; else the limit stands.
+  FormulaParser<D, ExpressionAlgebra> expressions(text);
+  auto expression = expressions.parse();
+  if (!expressions.is_beyond_polynomials()) return polynomials.error();
+  if (!expression) return expressions.error();
+  return Function<D>(std::move(*expression));
+}
+
+template std::variant<Polynomial<1>, SyntaxError> parse_polynomial<1>(std::string_view);
+template std::variant<Polynomial<2>, SyntaxError> parse_polynomial<2>(std::string_view);
+template std::variant<Polynomial<3>, SyntaxError> parse_polynomial<3>(std::string_view);
+template std::variant<Expression, SyntaxError> parse_expression<1>(std::string_view);
+template std::variant<Expression, SyntaxError> parse_expression<2>(std::string_view);
+template std::variant<Expression, SyntaxError> parse_expression<3>(std::string_view);
+template std::variant<Function<1>, SyntaxError> parse_function<1>(std::string_view);
+template std::variant<Function<2>, SyntaxError> parse_function<2>(std::string_view);
+template std::variant<Function<3>, SyntaxError> parse_function<3>(std::string_view);
 
 }  // namespace encase

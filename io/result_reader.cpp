@@ -10,6 +10,7 @@
 
 #include "arrangement_json.hpp"
 #include "encase/result_json.hpp"
+#include "expression_parser.hpp"
 #include "json_node.hpp"
 #include "names.hpp"
 
@@ -30,6 +31,16 @@ Polynomial<2> read_terms(const JsonNode& node) {
   Polynomial<2> polynomial = Polynomial<2>::from_terms(std::move(terms));
   if (polynomial.is_constant()) node.fail("the polynomial is constant");
   return polynomial;
+}
+
+/// What a curve is the zero set of.
+Function<2> read_function(const JsonNode& curve) {
+  if (!curve.has("expression")) return read_terms(curve.member("terms"));
+  const JsonNode node = curve.member("expression");
+  auto expression = parse_expression<2>(node.text());
+  if (const auto* e = std::get_if<SyntaxError>(&expression))
+    node.fail("at character " + std::to_string(e->offset + 1) + ": " + e->message);
+  return std::move(std::get<Expression>(expression));
 }
 
 Region read_region(const JsonNode& node) {
@@ -235,12 +246,12 @@ Encasement read_encasement(const JsonNode& root) {
   e.outcome = root.member("status").one_of(kOutcomes);
   const JsonNode input = root.member("input");
   e.input = input.member("curves").map([](const JsonNode& curve) {
-    return NamedCurve{curve.member("name").text(), read_terms(curve.member("terms"))};
+    return NamedCurve{curve.member("name").text(), read_function(curve)};
   });
   e.perturbation = input.member("delta").number();
   e.seed = input.member("seed").unsigned_integer();
   e.curves = root.member("curves").map([&](const JsonNode& curve) {
-    return Curve{curve.member("name").text(), read_terms(curve.member("terms")),
+    return Curve{curve.member("name").text(), read_function(curve),
                  curve.member("sources").indices(e.input.size())};
   });
   e.region = read_region(root.member("region"));

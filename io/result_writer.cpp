@@ -22,6 +22,15 @@ void put_terms(JsonWriter& w, const Polynomial<2>& polynomial) {
   });
 }
 
+/// The terms of a polynomial, or an expression as a text.
+void put_function(JsonWriter& w, const Function<2>& function) {
+  if (function.is_polynomial()) {
+    w.key("terms"), put_terms(w, function.polynomial());
+  } else {
+    w.field("expression", function.to_string());
+  }
+}
+
 void put_region(JsonWriter& w, const Region& region) {
   if (region.plane) return w.put("plane");
   w.raw("{\"polygon\":");
@@ -171,7 +180,7 @@ std::string to_json(const Encasement& e, const Arrangement* arrangement) {
   w.lines(e.input, [&](const NamedCurve& curve) {
     w.raw("{");
     w.field("name", curve.name);
-    w.key("terms"), put_terms(w, curve.function.polynomial());
+    put_function(w, curve.function);
     w.raw("}");
   });
   w.field("delta", e.perturbation);
@@ -181,7 +190,7 @@ std::string to_json(const Encasement& e, const Arrangement* arrangement) {
   w.lines(e.curves, [&](const Curve& curve) {
     w.raw("{");
     w.field("name", curve.name);
-    w.key("terms"), put_terms(w, curve.function.polynomial());
+    put_function(w, curve.function);
     w.field("sources", curve.sources);
     w.raw("}");
   });

@@ -13,7 +13,7 @@ namespace encase::written {
 /// The polynomial that a text denotes.
 template <int D>
 Polynomial<D> polynomial(const std::string& text) {
-  auto parsed = parse_expression<D>(text);
+  auto parsed = parse_polynomial<D>(text);
   if (!std::holds_alternative<Polynomial<D>>(parsed))
     throw std::invalid_argument("not a polynomial: " + text);
   return std::get<Polynomial<D>>(std::move(parsed));

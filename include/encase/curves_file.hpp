@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "encase/encasement.hpp"
-#include "encase/polynomial.hpp"
+#include "encase/function.hpp"
 #include "encase/region.hpp"
 #include "encase/result.hpp"
 
@@ -29,8 +29,11 @@ Result<CurvesFile> read_curves(std::istream& stream, const std::string& source);
 /// Reads a file; "-" is standard input. Io if it cannot be read or is a directory.
 Result<CurvesFile> load_curves(const std::string& path);
 
-/// Reads one curve, `expr` or `lhs = rhs`, as in a file. The zero polynomial and constants are
-/// polynomials too.
+/// Reads one curve, `expr` or `lhs = rhs`, as in a file: a polynomial where it is one. Functions
+/// that are zero everywhere, constant or without a value are read too.
+Result<Function<2>> parse_function(const std::string& text,
+                                   const std::string& source = "expression");
+/// The same of polynomials only.
 Result<Polynomial<2>> parse_polynomial(const std::string& text,
                                        const std::string& source = "expression");
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "encase/number.hpp"
@@ -42,6 +44,10 @@ enum class Operation {
 /// How many operands an operation has: 0, 1 or 2.
 int operands(Operation operation);
 
+/// The name of a function (sqrt, ..., max), else none; and what a name denotes.
+const char* function_name(Operation operation);
+std::optional<Operation> function_named(std::string_view name);
+
 /// A real function of x, y, z, written with arithmetic and elementary functions of exact constants.
 /// It has a value where all its operations have one: a quotient where the divisor is not zero, a
 /// negative power likewise, a square root of what is not negative, a logarithm of what is positive,
@@ -70,7 +76,7 @@ class Expression {
   /// for divisions by zero.
   static Expression apply(Operation operation, const Expression& operand);
   static Expression apply(Operation operation, const Expression& first, const Expression& second);
-  /// To an integer power.
+  /// To an integer power. Constants are folded up to a million bits.
   Expression power(int exponent) const;
 
   Expression operator-() const { return apply(Operation::Negate, *this); }

@@ -14,7 +14,7 @@ std::vector<std::pair<const char*, std::vector<std::string>>> field_data(
     const Encasement& encasement) {
   std::vector<std::string> input;
   for (const NamedCurve& curve : encasement.input)
-    input.push_back(curve.name + ": " + curve.function.polynomial().to_string());
+    input.push_back(curve.name + ": " + curve.function.to_string());
   return {{"status", {name_of(kOutcomes, encasement.outcome)}},
           {"input", input},
           {"version", {std::string("encase ") + kVersion}}};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -13,11 +14,25 @@ namespace encase {
 
 struct Expression::Node {
   Operation operation;
-  std::shared_ptr<const Node> first, second;
+  mutable std::shared_ptr<const Node> first, second;  ///< mutable for the destructor
   int number = 0;
   Rational constant = 0;
   int size = 1;
   unsigned axes = 0;  ///< a bit for every variable that occurs
+
+  /// Not by recursion, which a long sum would take too deep.
+  ~Node() {
+    std::vector<std::shared_ptr<const Node>> last;
+    const auto take = [&last](std::shared_ptr<const Node>& operand) {
+      if (operand && operand.use_count() == 1) last.push_back(std::move(operand));
+    };
+    take(first), take(second);
+    while (!last.empty()) {
+      const std::shared_ptr<const Node> node = std::move(last.back());
+      last.pop_back();
+      take(node->first), take(node->second);
+    }
+  }
 };
 
 namespace {
@@ -32,12 +47,6 @@ constexpr std::array kFunctions = {
     Named{Operation::Asin, "asin"}, Named{Operation::Acos, "acos"}, Named{Operation::Atan, "atan"},
     Named{Operation::Sinh, "sinh"}, Named{Operation::Cosh, "cosh"}, Named{Operation::Tanh, "tanh"},
     Named{Operation::Abs, "abs"},   Named{Operation::Min, "min"},   Named{Operation::Max, "max"}};
-
-const char* name_of(Operation operation) {
-  for (const Named& named : kFunctions)
-    if (named.operation == operation) return named.name;
-  return nullptr;
-}
 
 /// What an operation makes of rational constants, where that is rational and has a value.
 bool fold(Operation operation, const Rational& a, const Rational& b, Rational* result) {
@@ -72,6 +81,22 @@ bool fold(Operation operation, const Rational& a, const Rational& b, Rational* r
   }
 }
 
+bool fold_power(const Rational& base, int exponent, Rational* result) {
+  constexpr std::size_t kMaxBits = 1000000;
+  if (base == 0 && exponent < 0) return false;
+  const std::size_t bits =
+      std::max(mpz_sizeinbase(base.get_num_mpz_t(), 2), mpz_sizeinbase(base.get_den_mpz_t(), 2));
+  unsigned long times = static_cast<unsigned long>(std::labs(exponent));
+  if (abs(base) == 1 || base == 0)
+    times = times == 0 ? 0 : 2 - times % 2;
+  else if (times > kMaxBits / bits)
+    return false;
+  mpz_pow_ui(result->get_num_mpz_t(), base.get_num_mpz_t(), times);
+  mpz_pow_ui(result->get_den_mpz_t(), base.get_den_mpz_t(), times);
+  if (exponent < 0) *result = 1 / *result;
+  return true;
+}
+
 /// How tightly an operation binds what is written: sums, products, powers, all else.
 int binding(Operation operation, const Rational& constant) {
   switch (operation) {
@@ -92,6 +117,18 @@ int binding(Operation operation, const Rational& constant) {
 }
 
 }  // namespace
+
+const char* function_name(Operation operation) {
+  for (const Named& named : kFunctions)
+    if (named.operation == operation) return named.name;
+  return nullptr;
+}
+
+std::optional<Operation> function_named(std::string_view name) {
+  for (const Named& named : kFunctions)
+    if (named.name == name) return named.operation;
+  return std::nullopt;
+}
 
 int operands(Operation operation) {
   switch (operation) {
@@ -181,6 +218,9 @@ Expression Expression::apply(Operation operation, const Expression& first,
 
 Expression Expression::power(int exponent) const {
   if (exponent == 1) return *this;
+  Rational folded;
+  if (const Rational* c = constant(); c && fold_power(*c, exponent, &folded))
+    return Expression(folded);
   const int size_of_power = std::min(size(), std::numeric_limits<int>::max() - 1) + 1;
   return Expression(std::make_shared<Node>(
       Node{Operation::Power, node_, {}, exponent, 0, size_of_power, node_->axes}));
@@ -229,57 +269,80 @@ bool Expression::operator==(const Expression& other) const {
 }
 
 std::string Expression::to_string() const {
-  const std::vector<Step> steps = this->steps();
-  std::vector<std::string> texts;
-  for (const Step& step : steps) {
-    // An operand in parentheses unless it binds at least as tightly as required.
-    const auto operand = [&](int index, int required) {
-      const Step& of = steps[static_cast<std::size_t>(index)];
-      const std::string& text = texts[static_cast<std::size_t>(index)];
-      return binding(of.operation, of.constant) >= required ? text : "(" + text + ")";
+  // What is still to be written, the next one last: a node, in parentheses unless it binds at least
+  // as tightly as required; or a text.
+  struct Part {
+    const Node* node;
+    int required;
+    std::string text;
+  };
+  std::vector<Part> parts{{node_.get(), 0, {}}};
+  std::string written;
+  while (!parts.empty()) {
+    const Part part = std::move(parts.back());
+    parts.pop_back();
+    if (!part.node) {
+      written += part.text;
+      continue;
+    }
+    const Node& node = *part.node;
+    const bool enclosed = binding(node.operation, node.constant) < part.required;
+    if (enclosed) {
+      written += "(";
+      parts.push_back({nullptr, 0, ")"});
+    }
+    const auto infix = [&](const char* sign, int left, int right) {
+      parts.push_back({node.second.get(), right, {}});
+      parts.push_back({nullptr, 0, sign});
+      parts.push_back({node.first.get(), left, {}});
     };
-    switch (step.operation) {
+    switch (node.operation) {
       case Operation::Constant:
-        texts.push_back(step.constant.get_str());
+        written += node.constant.get_str();
         break;
       case Operation::Pi:
-        texts.push_back("pi");
+        written += "pi";
         break;
       case Operation::Euler:
-        texts.push_back("e");
+        written += "e";
         break;
       case Operation::Variable:
-        texts.push_back(std::string(1, "xyz"[step.number]));
+        written += "xyz"[node.number];
         break;
       case Operation::Negate:
-        texts.push_back("-" + operand(step.first, 2));
+        written += "-";
+        parts.push_back({node.first.get(), 2, {}});
         break;
       case Operation::Add:
-        texts.push_back(operand(step.first, 0) + " + " + operand(step.second, 1));
+        infix(" + ", 0, 1);
         break;
       case Operation::Subtract:
-        texts.push_back(operand(step.first, 0) + " - " + operand(step.second, 1));
+        infix(" - ", 0, 1);
         break;
       case Operation::Multiply:
-        texts.push_back(operand(step.first, 1) + "*" + operand(step.second, 2));
+        infix("*", 1, 2);
         break;
       case Operation::Divide:
-        texts.push_back(operand(step.first, 1) + "/" + operand(step.second, 2));
+        infix("/", 1, 2);
         break;
-      case Operation::Power:
-        texts.push_back(operand(step.first, 3) + "^" +
-                        (step.number < 0 ? "(" + std::to_string(step.number) + ")"
-                                         : std::to_string(step.number)));
+      case Operation::Power: {
+        const std::string exponent = std::to_string(node.number);
+        parts.push_back({nullptr, 0, node.number < 0 ? "^(" + exponent + ")" : "^" + exponent});
+        parts.push_back({node.first.get(), 3, {}});
         break;
-      default: {
-        std::string text = name_of(step.operation);
-        text += "(" + operand(step.first, 0);
-        if (step.second >= 0) text += ", " + operand(step.second, 0);
-        texts.push_back(text + ")");
       }
+      default:
+        written += function_name(node.operation);
+        written += "(";
+        parts.push_back({nullptr, 0, ")"});
+        if (node.second) {
+          infix(", ", 0, 0);
+        } else {
+          parts.push_back({node.first.get(), 0, {}});
+        }
     }
   }
-  return texts.back();
+  return written;
 }
 
 }  // namespace encase

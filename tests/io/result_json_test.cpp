@@ -232,6 +232,30 @@ TEST(ResultJson, ReadsBackEveryField) {
   expect_equal(sample::circle_and_line(), read(to_json(sample::circle_and_line())));
 }
 
+TEST(ResultJson, ReadsBackExpressions) {
+  Encasement e = full_sample();
+  const Expression x = Expression::variable(0), y = Expression::variable(1);
+  const Expression f = y - Expression::apply(Operation::Sin, x * Rational(1, 3)).power(-2);
+  // This one is a polynomial, and is not to become one.
+  const Expression g = x * x - y;
+  e.input[0].function = f;
+  e.curves[1].function = g;
+  const std::string text = to_json(e);
+  EXPECT_NE(text.find("\"expression\":\"y - sin(x*(1/3))^(-2)\""), std::string::npos);
+  const Encasement read = encasement_from_json(text, "result").value();
+  EXPECT_EQ(read.input[0].function, Function<2>(f));
+  EXPECT_EQ(read.curves[1].function, Function<2>(g));
+  EXPECT_EQ(to_json(read), text);
+  Json broken = Json::parse(text);
+  broken["input"]["curves"][0]["expression"] = "y - sinx";
+  const auto refused = encasement_from_json(broken.dump(), "result");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find(
+                "input.curves[0].expression: at character 5: unknown variable 'sinx'"),
+            std::string::npos)
+      << refused.error().message;
+}
+
 TEST(ResultJson, ReadsBackRandomDoubles) {
   std::mt19937_64 random(7);
   Encasement e = sample::circle_and_line();
