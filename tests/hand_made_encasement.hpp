@@ -24,7 +24,7 @@ inline Polynomial<2> polynomial(std::vector<Polynomial<2>::Term> terms) {
 }
 
 struct Recipe {
-  std::vector<Polynomial<2>> curves;
+  std::vector<Function<2>> curves;
   std::vector<Point<2>> corners;  ///< of the region, counter-clockwise
   std::vector<std::array<double, 3>> splitting_lines;
   std::vector<Split> history;  ///< lines counted after the region's sides
@@ -130,6 +130,7 @@ class Builder {
     if (end.lo < start.lo) std::swap(start, end);
     for (std::size_t i = 0; i < curves_.size(); ++i) {
       auto roots = isolate_on_line(curves_[i], e_.lines[line], start.hi, end.lo, 10000, kernel_);
+      if (!roots && !recipe_.degenerate.empty()) continue;
       if (!roots) throw std::runtime_error("a line crossing cannot be isolated");
       for (RootInterval& root : *roots) {
         while (root.hi - root.lo > 1e-9 &&
@@ -256,7 +257,9 @@ class Builder {
 
   bool unresolved(const Box<2>& leaf, const std::vector<int>& curves) const {
     for (const Unresolved& u : e_.degenerate)
-      if (u.has_box && u.box.contains(leaf) && u.curves == curves) return true;
+      if (u.has_box && u.box.contains(leaf) &&
+          (u.curves == curves || u.kind == Unresolved::Kind::NotAnalytic))
+        return true;
     return false;
   }
 

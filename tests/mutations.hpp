@@ -454,14 +454,14 @@ class Mutator {
   Changed curve(Encasement& e) {
     Curve& c = any(e.curves);
     const std::string where = name("curve", e.curves, c);
-    const auto constant = Polynomial<2>::constant(Rational(1, 1000));
-    if (coin()) {
-      c.function = c.function.polynomial() + constant;
-      return Mutation{where + ": constant term"};
-    }
+    const Rational constant(1, 1000);
+    if (c.function.is_polynomial())
+      c.function = c.function.polynomial() + Polynomial<2>::constant(constant);
+    else
+      c.function = c.function.expression() + Expression(constant);
+    if (coin()) return Mutation{where + ": constant term"};
     // The input as well: a correct description of another problem, with the same crossings.
-    c.function = c.function.polynomial() + constant;
-    e.input[static_cast<std::size_t>(c.sources[0])].function = c.function.polynomial();
+    e.input[static_cast<std::size_t>(c.sources[0])].function = c.function;
     return Mutation{where + ": constant term of the input"};
   }
 

@@ -28,6 +28,7 @@ struct Arrangement {
     int half_edge = -1;  ///< one that begins here
     /// The crossing's `point`; the corner, rounded to nearest; or where the curve meets a side: the
     /// parameter of the side's line rounded to nearest, and then the point of the line there.
+    /// (Of a curve that is no polynomial as far as 800 bits tell.)
     Point<2> point{};
     bool operator==(const Vertex&) const = default;
   };
@@ -100,7 +101,14 @@ struct Arrangement {
 
   /// A vertex, an edge or a face.
   struct Feature {
-    enum class Kind { Vertex, Edge, Face };
+    enum class Kind {
+      Vertex,
+      Edge,
+      Face,
+      /// Not told: the point lies on a curve that is no polynomial, or too close to it. The index
+      /// is -1.
+      Undecided
+    };
     Kind kind = Kind::Face;
     int index = -1;
     bool operator==(const Feature&) const = default;
@@ -165,8 +173,9 @@ std::string check(const Arrangement& arrangement);
 /// other around vertices and faces, the curves on them, the signs, and what lies in which hole.
 std::string canonical_topology(const Arrangement& arrangement);
 
-/// Tells on which face, edge or vertex points lie, exactly. Refers to the encasement, which must
-/// outlive it. Const calls may run in parallel.
+/// Tells on which face, edge or vertex points lie, exactly: of a point on a curve that is no
+/// polynomial, or within about 2^-800 of it, that is in general left open (Feature::Kind). Refers
+/// to the encasement, which must outlive it. Const calls may run in parallel.
 class PointLocator {
  public:
   PointLocator(const Encasement& encasement, const Arrangement& arrangement);

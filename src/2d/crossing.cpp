@@ -5,9 +5,11 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "common/components.hpp"
+#include "common/expression_program.hpp"
 #include "common/interval.hpp"
 #include "common/mpfr_interval.hpp"
 
@@ -17,6 +19,11 @@ namespace {
 
 /// Beyond this many bits a coordinate alone would take a good part of the memory.
 constexpr long kMaxBits = 100000000;
+/// Likewise for sines and exponentials, and time.
+constexpr long kMaxBitsOfExpressions = 1 << 20;
+/// How many bits of two coordinates have to agree before it is left open whether they are equal,
+/// where no resultant tells.
+constexpr long kMaxBitsCompared = 1 << 12;
 /// How many bits of precision, more than the result needs, are tried before giving up.
 constexpr long kMaxGuard = 1 << 18;
 /// How many boxes a subdivision may hold that narrows a crossing's box for the interval Newton
@@ -62,6 +69,8 @@ long bits_of_width(const Rational& width) {
          static_cast<long>(mpz_sizeinbase(width.get_num_mpz_t(), 2)) - 1;
 }
 
+using IntervalBox = std::array<MpfrInterval, 2>;
+
 /// A polynomial with coefficients enclosed at one precision, by Horner's scheme in both variables.
 class EnclosedPolynomial {
  public:
@@ -74,7 +83,7 @@ class EnclosedPolynomial {
     }
   }
 
-  MpfrInterval operator()(const std::array<MpfrInterval, 2>& at) const {
+  MpfrInterval operator()(const IntervalBox& at) const {
     MpfrInterval sum = zero_;
     for (std::size_t i = rows_.size(); i-- > 0;) {
       MpfrInterval inner = zero_;
@@ -93,11 +102,74 @@ class EnclosedPolynomial {
   std::vector<std::vector<MpfrInterval>> rows_;  // by the exponents of x, then y
 };
 
+/// A polynomial and its gradient on boxes.
+class PolynomialOnBoxes {
+ public:
+  explicit PolynomialOnBoxes(const Polynomial<2>& f)
+      : exact_{f, f.derivative(0), f.derivative(1)} {}
+
+  void prepare(int precision) {
+    enclosed_.clear();
+    for (const Polynomial<2>& f : exact_) enclosed_.emplace_back(f, precision);
+  }
+  MpfrInterval value(const IntervalBox& at) { return enclosed_[0](at); }
+  std::optional<IntervalBox> gradient(const IntervalBox& at) {
+    return IntervalBox{enclosed_[1](at), enclosed_[2](at)};
+  }
+
+ private:
+  std::array<Polynomial<2>, 3> exact_;  // f, f_x, f_y
+  std::vector<EnclosedPolynomial> enclosed_;
+};
+
+/// An expression and its gradient on boxes, at their precision.
+class ExpressionOnBoxes {
+ public:
+  explicit ExpressionOnBoxes(const Expression& f) : program_(f) {}
+
+  void prepare(int) {}
+  MpfrInterval value(const IntervalBox& at) { return program_.value(at, workspace_).range(); }
+  std::optional<IntervalBox> gradient(const IntervalBox& at) {
+    const auto on_box = program_.value_and_gradient(at, workspace_);
+    if (!on_box.smooth()) return std::nullopt;
+    return IntervalBox{on_box.jet.first(0), on_box.jet.first(1)};
+  }
+
+ private:
+  ExpressionProgram<2> program_;
+  ExpressionProgram<2>::Workspace<MpfrInterval> workspace_;
+};
+
+/// The function of a curve, with enclosures at one precision.
+class FunctionOnBoxes {
+ public:
+  explicit FunctionOnBoxes(const Function<2>& f)
+      : on_boxes_(f.is_polynomial() ? OnBoxes(PolynomialOnBoxes(f.polynomial()))
+                                    : ExpressionOnBoxes(f.expression())) {}
+
+  void prepare(int precision) {
+    std::visit([&](auto& f) { f.prepare(precision); }, on_boxes_);
+  }
+  /// Holds all values on a box.
+  MpfrInterval value(const IntervalBox& at) {
+    return std::visit([&](auto& f) { return f.value(at); }, on_boxes_);
+  }
+  /// Holds all gradients on a box; nothing unless the function is proved to be differentiable
+  /// there.
+  std::optional<IntervalBox> gradient(const IntervalBox& at) {
+    return std::visit([&](auto& f) { return f.gradient(at); }, on_boxes_);
+  }
+
+ private:
+  using OnBoxes = std::variant<PolynomialOnBoxes, ExpressionOnBoxes>;
+  OnBoxes on_boxes_;
+};
+
 /// The common points of two curves in boxes, by the interval Newton method of Krawczyk.
 class CommonPoint {
  public:
-  CommonPoint(const Polynomial<2>& f, const Polynomial<2>& g)
-      : exact_{f, g, f.derivative(0), f.derivative(1), g.derivative(0), g.derivative(1)} {}
+  CommonPoint(const Function<2>& f, const Function<2>& g)
+      : functions_{FunctionOnBoxes(f), FunctionOnBoxes(g)} {}
 
   enum class Step {
     Shrunk,  ///< the largest width is at most half of what it was
@@ -119,13 +191,14 @@ class CommonPoint {
       m[i] = middle(box->lo[i], box->hi[i], precision);
       if (m[i] < box->lo[i] || m[i] > box->hi[i]) return Step::Noise;
     }
-    const std::array<MpfrInterval, 2> at_m{MpfrInterval(precision, m[0]),
-                                           MpfrInterval(precision, m[1])};
-    const std::array<MpfrInterval, 2> at_box{MpfrInterval(precision, box->lo[0], box->hi[0]),
-                                             MpfrInterval(precision, box->lo[1], box->hi[1])};
-    const MpfrInterval f = enclosed_[0](at_m), g = enclosed_[1](at_m);
-    const MpfrInterval fx = enclosed_[2](at_box), fy = enclosed_[3](at_box);
-    const MpfrInterval gx = enclosed_[4](at_box), gy = enclosed_[5](at_box);
+    const IntervalBox at_m{MpfrInterval(precision, m[0]), MpfrInterval(precision, m[1])};
+    const IntervalBox at_box = enclosed(*box, precision);
+    const MpfrInterval f = functions_[0].value(at_m), g = functions_[1].value(at_m);
+    const auto gradient_f = functions_[0].gradient(at_box),
+               gradient_g = functions_[1].gradient(at_box);
+    if (!gradient_f || !gradient_g) return Step::Wide;
+    const auto& [fx, fy] = *gradient_f;
+    const auto& [gx, gy] = *gradient_g;
     for (const MpfrInterval* v : {&f, &g, &fx, &fy, &gx, &gy})
       if (!is_finite(*v)) return Step::Wide;
 
@@ -144,8 +217,8 @@ class CommonPoint {
 
     const MpfrInterval one(precision, 1.0);
     const MpfrInterval dx = at_box[0] - at_m[0], dy = at_box[1] - at_m[1];
-    const std::array<MpfrInterval, 2> shift{p * f + q * g, r * f + s * g};
-    const std::array<MpfrInterval, 2> image{
+    const IntervalBox shift{p * f + q * g, r * f + s * g};
+    const IntervalBox image{
         at_m[0] - shift[0] + (one - p * fx - q * gx) * dx - (p * fy + q * gy) * dy,
         at_m[1] - shift[1] - (r * fx + s * gx) * dx + (one - r * fy - s * gy) * dy};
     bool noisy = false;
@@ -190,12 +263,16 @@ class CommonPoint {
   }
 
  private:
+  static IntervalBox enclosed(const RationalBox& box, int precision) {
+    return {MpfrInterval(precision, box.lo[0], box.hi[0]),
+            MpfrInterval(precision, box.lo[1], box.hi[1])};
+  }
+
   bool excluded(const RationalBox& box, int precision) {
     enclose(precision);
-    const std::array<MpfrInterval, 2> at{MpfrInterval(precision, box.lo[0], box.hi[0]),
-                                         MpfrInterval(precision, box.lo[1], box.hi[1])};
-    for (int i = 0; i < 2; ++i) {
-      const auto sign = enclosed_[static_cast<std::size_t>(i)](at).sign();
+    const IntervalBox at = enclosed(box, precision);
+    for (FunctionOnBoxes& f : functions_) {
+      const auto sign = f.value(at).sign();
       if (sign && *sign != Sign::Zero) return true;
     }
     return false;
@@ -203,13 +280,11 @@ class CommonPoint {
 
   void enclose(int precision) {
     if (precision == precision_) return;
-    enclosed_.clear();
-    for (const Polynomial<2>& f : exact_) enclosed_.emplace_back(f, precision);
+    for (FunctionOnBoxes& f : functions_) f.prepare(precision);
     precision_ = precision;
   }
 
-  std::array<Polynomial<2>, 6> exact_;  // f, g, f_x, f_y, g_x, g_y
-  std::vector<EnclosedPolynomial> enclosed_;
+  std::array<FunctionOnBoxes, 2> functions_;
   int precision_ = 0;
 };
 
@@ -226,9 +301,13 @@ std::optional<Error> complaint(const Encasement& encasement, int id) {
   return std::nullopt;
 }
 
-const Polynomial<2>& curve_of(const Encasement& encasement, int id, int which) {
+const Function<2>& curve_of(const Encasement& encasement, int id, int which) {
   const Crossing& crossing = encasement.crossings[static_cast<std::size_t>(id)];
-  return encasement.curves[static_cast<std::size_t>(crossing.curves[which])].function.polynomial();
+  return encasement.curves[static_cast<std::size_t>(crossing.curves[which])].function;
+}
+
+bool are_polynomials(const Encasement& encasement, int id) {
+  return curve_of(encasement, id, 0).is_polynomial() && curve_of(encasement, id, 1).is_polynomial();
 }
 
 /// Refines a box that holds exactly one common point of two curves.
@@ -278,9 +357,12 @@ class Refiner {
 
 Result<RationalBox> refine(const Encasement& encasement, int id, int bits) {
   if (const auto error = complaint(encasement, id)) return *error;
-  if (bits > kMaxBits)
+  const bool polynomials = are_polynomials(encasement, id);
+  const long most = polynomials ? kMaxBits : kMaxBitsOfExpressions;
+  if (bits > most)
     return Error{Error::Code::Undecided,
-                 "crossings can be refined to " + std::to_string(kMaxBits) + " bits at most"};
+                 std::string("crossings of curves that are ") + (polynomials ? "" : "no ") +
+                     "polynomials can be refined to " + std::to_string(most) + " bits at most"};
   Refiner refiner(encasement, id);
   if (const Status error = refiner.refine(bits)) return *error;
   return refiner.box();
@@ -289,7 +371,7 @@ Result<RationalBox> refine(const Encasement& encasement, int id, int bits) {
 // Two different coordinates are told apart by refining both. Equal ones never are: but the first is
 // a root of R_1, the second of R_2, the resultants of the two pairs that eliminate the other
 // coordinate. Once the hull of both enclosures holds a single root of R_1 R_2, both coordinates are
-// that root.
+// that root. Where one of the curves is no polynomial there is no such proof.
 Result<Sign> compare_coordinate(const Encasement& encasement, int axis, int first, int second) {
   for (int id : {first, second})
     if (const auto error = complaint(encasement, id)) return *error;
@@ -297,22 +379,26 @@ Result<Sign> compare_coordinate(const Encasement& encasement, int axis, int firs
   if (first == second) return Sign::Zero;
 
   constexpr int kBitsBeforeResultants = 200;
+  const bool polynomials =
+      are_polynomials(encasement, first) && are_polynomials(encasement, second);
+  const long most = polynomials ? kMaxBits : kMaxBitsCompared;
   Refiner a(encasement, first), b(encasement, second);
   std::optional<Polynomial<1>> roots;  // the square-free part of R_1 R_2
-  for (long bits = 50; bits <= kMaxBits; bits *= 2) {
+  long bits = 50;
+  for (; bits <= most; bits *= 2) {
     for (Refiner* refiner : {&a, &b})
       if (const Status error = refiner->refine(bits)) return *error;
     if (a.box().hi[axis] < b.box().lo[axis]) return Sign::Negative;
     if (b.box().hi[axis] < a.box().lo[axis]) return Sign::Positive;
-    if (bits < kBitsBeforeResultants) continue;
+    if (bits < kBitsBeforeResultants || !polynomials) continue;
     if (!roots) {
       roots = Polynomial<1>::constant(1);
       const auto& pairs = encasement.crossings;
       const bool same_pair = pairs[static_cast<std::size_t>(first)].curves ==
                              pairs[static_cast<std::size_t>(second)].curves;
       for (int id : same_pair ? std::vector{first} : std::vector{first, second}) {
-        const auto r =
-            resultant(curve_of(encasement, id, 0), curve_of(encasement, id, 1), 1 - axis);
+        const auto r = resultant(curve_of(encasement, id, 0).polynomial(),
+                                 curve_of(encasement, id, 1).polynomial(), 1 - axis);
         if (r.is_zero())
           return Error{Error::Code::Degenerate,
                        "the curves of crossing " + std::to_string(id) + " share a component"};
@@ -324,9 +410,12 @@ Result<Sign> compare_coordinate(const Encasement& encasement, int axis, int firs
     const Rational& hi = std::max(a.box().hi[axis], b.box().hi[axis]);
     if (count_real_roots(*roots, lo, hi) == 1) return Sign::Zero;
   }
-  return Error{Error::Code::Undecided, "the coordinates of crossings " + std::to_string(first) +
-                                           " and " + std::to_string(second) +
-                                           " agree to more bits than can be computed"};
+  return Error{Error::Code::Undecided,
+               "the coordinates of crossings " + std::to_string(first) + " and " +
+                   std::to_string(second) + " agree to " + std::to_string(bits / 2) + " bits" +
+                   (polynomials ? ""
+                                : "; whether they are equal is not proved, as not all of the "
+                                  "curves are polynomials")};
 }
 
 }  // namespace encase

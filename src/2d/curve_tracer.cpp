@@ -66,8 +66,9 @@ CurvePoint CurveTracer::at_crossing(int crossing) const {
   return result;
 }
 
-/// The direction of a branch (see CurvePiece) that enters a cell at a line crossing; 0 if the cell
-/// has no corner to tell the side of the line.
+/// The direction of a branch (see CurvePiece) that enters a cell at a line crossing; 0 if it is not
+/// told: the cell has no corner to tell the side of the line, or the sign at the interval's end is
+/// not proved.
 int CurveTracer::direction_into(int cell, int line_crossing) {
   const LineCrossing& c = encasement_.line_crossings[line_crossing];
   const Line& line = encasement_.lines[c.line];
@@ -78,7 +79,9 @@ int CurveTracer::direction_into(int cell, int line_crossing) {
       where = side(line, encasement_.lines[v.line_in], encasement_.lines[v.line_out], kernel_);
   if (where == Sign::Zero) return 0;
   // Who enters has the boundary that lies ahead, counter-clockwise, to the right.
-  const bool grows = sign_on_line(*tiles_, line, c.hi, kernel_) == Sign::Positive;
+  const Sign at_end = sign_on_line(*tiles_, line, c.hi, kernel_);
+  if (at_end == Sign::Zero) return 0;
+  const bool grows = at_end == Sign::Positive;
   return grows == parameter_grows(line, where == Sign::Positive) ? -1 : 1;
 }
 

@@ -40,12 +40,14 @@ std::optional<Region> enlarged(const Region& region, int attempt) {
 
 namespace {
 
+bool are_polynomials(const Encasement& encasement, const Crossing& crossing) {
+  return encasement.curves[crossing.curves[0]].function.is_polynomial() &&
+         encasement.curves[crossing.curves[1]].function.is_polynomial();
+}
+
 /// Whether the pair's only common point in the crossing's box lies on the line: the restrictions of
-/// both curves to the line have a common root there. Exact; of
-/// other curves than polynomials it is not known.
+/// both curves, polynomials, to the line have a common root there. Exact.
 bool on_line(const Encasement& encasement, const Crossing& crossing, const Line& line) {
-  for (const int c : crossing.curves)
-    if (!encasement.curves[c].function.is_polynomial()) return false;
   const Polynomial<1> common =
       gcd(restrict_exactly(encasement.curves[crossing.curves[0]].function.polynomial(), line),
           restrict_exactly(encasement.curves[crossing.curves[1]].function.polynomial(), line));
@@ -67,6 +69,60 @@ bool on_line(const Encasement& encasement, const Crossing& crossing, const Line&
   return lo <= hi && count_real_roots(common, lo, hi) > 0;
 }
 
+/// Up to how many bits of a crossing are computed to tell it from a line: a crossing of polynomials
+/// that is not on the line is told some time; of others it is not known whether it is.
+long most_bits(bool polynomials) { return polynomials ? 1 << 20 : 1 << 11; }
+
+/// The side of a line on which a crossing lies; nothing if it cannot be told. Its box may be
+/// narrowed to what tells it.
+std::optional<Sign> tell_side(Encasement& encasement, int id, const Line& line, Kernel& kernel) {
+  Crossing& crossing = encasement.crossings[id];
+  if (const auto where = side(line, crossing.box, kernel)) return where;
+  const bool polynomials = are_polynomials(encasement, crossing);
+  if (polynomials && on_line(encasement, crossing, line)) return Sign::Zero;
+  for (int bits = 64; bits <= most_bits(polynomials); bits *= 2) {
+    const auto exact = refine(encasement, id, bits);
+    if (!exact) return std::nullopt;
+    // Some room around the common point, the same in both coordinates, so that the box is easily
+    // proved to hold it.
+    const RationalBox& tight = exact.value();
+    Rational room = 0;
+    for (int i = 0; i < 2; ++i)
+      room = std::max(room, Rational(4 * (tight.hi[i] - tight.lo[i]) +
+                                     Rational(0x1p-46 * std::fabs(nearest_double(tight.lo[i])))));
+    Box<2> box;
+    for (int i = 0; i < 2; ++i) {
+      box.lo[i] = Interval::enclose(Rational(tight.lo[i] - room)).lo;
+      box.hi[i] = Interval::enclose(Rational(tight.hi[i] + room)).hi;
+    }
+    const auto where = side(line, box, kernel);
+    if (where && crossing.box.contains(box)) {
+      crossing.box = box;
+      crossing.point = box.center();
+      crossing.rounded = false;
+    }
+    if (where) return where;
+  }
+  return std::nullopt;
+}
+
+/// Where the crossing is stays open, and so does what there is in its cell.
+void leave_open(Encasement& encasement, int id) {
+  const Crossing& crossing = encasement.crossings[id];
+  Unresolved entry;
+  entry.kind = Unresolved::Kind::Budget;
+  entry.box = crossing.box;
+  entry.has_box = true;
+  entry.curves = {crossing.curves[0], crossing.curves[1]};
+  entry.reason = "crossing " + std::to_string(id) +
+                 " lies on the region's boundary or too close to it to be told from it";
+  encasement.undecided.push_back(std::move(entry));
+  if (crossing.cell < 0) return;
+  Cell& cell = encasement.cells[crossing.cell];
+  cell.state = CellState::Undecided;
+  cell.branches.clear();
+}
+
 }  // namespace
 
 void locate_crossings(Encasement& encasement, Kernel& kernel) {
@@ -79,43 +135,14 @@ void locate_crossings(Encasement& encasement, Kernel& kernel) {
     Crossing& crossing = encasement.crossings[id];
     if (crossing.location == Location::Outside) continue;
     for (const Line& line : sides) {
-      std::optional<Sign> where = side(line, crossing.box, kernel);
-      if (!where && on_line(encasement, crossing, line)) where = Sign::Zero;
-      // Not on the line: some precision tells the side. The box is narrowed to what tells it.
-      for (int bits = 64; !where && bits <= (1 << 20); bits *= 2) {
-        const auto exact = refine(encasement, static_cast<int>(id), bits);
-        if (!exact) break;
-        // Some room around the common point, the same in both coordinates, so that the box is
-        // easily proved to hold it.
-        const RationalBox& tight = exact.value();
-        Rational room = 0;
-        for (int i = 0; i < 2; ++i)
-          room =
-              std::max(room, Rational(4 * (tight.hi[i] - tight.lo[i]) +
-                                      Rational(0x1p-46 * std::fabs(nearest_double(tight.lo[i])))));
-        Box<2> box;
-        for (int i = 0; i < 2; ++i) {
-          box.lo[i] = Interval::enclose(Rational(tight.lo[i] - room)).lo;
-          box.hi[i] = Interval::enclose(Rational(tight.hi[i] + room)).hi;
-        }
-        where = side(line, box, kernel);
-        if (where && crossing.box.contains(box)) {
-          crossing.box = box;
-          crossing.point = box.center();
-          crossing.rounded = false;
-        }
-      }
+      const std::optional<Sign> where = tell_side(encasement, static_cast<int>(id), line, kernel);
       if (where == Sign::Positive) {
         crossing.location = Location::Outside;
         break;
       }
       if (where == Sign::Zero) crossing.location = Location::OnBoundary;
       if (!where) {
-        Unresolved entry;
-        entry.kind = Unresolved::Kind::Budget;
-        entry.reason =
-            "crossing " + std::to_string(id) + " could not be told from the region's boundary";
-        encasement.undecided.push_back(std::move(entry));
+        leave_open(encasement, static_cast<int>(id));
         break;
       }
     }

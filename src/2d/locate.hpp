@@ -16,7 +16,9 @@ namespace encase {
 std::optional<Region> enlarged(const Region& region, int attempt);
 
 /// Decides for every crossing inside region_used, exactly, whether it lies in the interior of the
-/// region asked, on its boundary or outside.
+/// region asked, on its boundary or outside. One of curves that are no polynomials is never proved
+/// to lie on the boundary: where precision does not tell, it is listed as undecided, and its cell
+/// becomes so.
 void locate_crossings(Encasement& encasement, Kernel& kernel);
 
 }  // namespace encase

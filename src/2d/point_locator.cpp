@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "2d/cell_parts.hpp"
+#include "common/expression_program.hpp"
 #include "common/filtered_function.hpp"
 #include "common/segments.hpp"
 #include "encase/arrangement.hpp"
@@ -23,13 +25,20 @@ Feature face(int index) { return {Feature::Kind::Face, index}; }
 RationalPoint<2> exact(const Point<2>& point) { return {Rational(point[0]), Rational(point[1])}; }
 const RationalPoint<2>& exact(const RationalPoint<2>& point) { return point; }
 
-Sign sign_at(const FilteredFunction<2>& f, const Point<2>& point, Kernel& kernel) {
+/// Nothing where the sign of an expression is not proved.
+std::optional<Sign> sign_at(const FilteredFunction<2>& f, const RationalPoint<2>& point,
+                            Kernel& kernel) {
+  const Sign sign = f.sign_at(point, kernel);
+  if (f.is_polynomial() || sign != Sign::Zero) return sign;
+  // It may be zero provably.
+  const ExpressionProgram<2> program(f.expression().exact());
+  if (program.sign_at(point, kernel) == PointSign::Zero) return Sign::Zero;
+  return std::nullopt;
+}
+std::optional<Sign> sign_at(const FilteredFunction<2>& f, const Point<2>& point, Kernel& kernel) {
   const auto v = f.evaluate(point, Kernel::kDoubleBits);
   if (std::fabs(v.value) > v.error) return v.value > 0 ? Sign::Positive : Sign::Negative;
-  return f.sign_at(exact(point), kernel);
-}
-Sign sign_at(const FilteredFunction<2>& f, const RationalPoint<2>& point, Kernel& kernel) {
-  return f.sign_at(point, kernel);
+  return sign_at(f, exact(point), kernel);
 }
 
 /// normal . x + offset in doubles where that is certain to have the right sign, else exactly.
@@ -170,8 +179,11 @@ template <class P>
 Feature PointLocator::Tables::in_cell(int id, const P& point, Kernel& kernel) const {
   const CellTable& cell = cells[id];
   std::array<Sign, 2> signs{Sign::Negative, Sign::Negative};
-  for (int i = 0; i < 2 && cell.curves[i] >= 0; ++i)
-    signs[i] = sign_at(curves[cell.curves[i]], point, kernel);
+  for (int i = 0; i < 2 && cell.curves[i] >= 0; ++i) {
+    const std::optional<Sign> sign = sign_at(curves[cell.curves[i]], point, kernel);
+    if (!sign) return {Feature::Kind::Undecided, -1};
+    signs[i] = *sign;
+  }
   if (signs[0] == Sign::Zero && signs[1] == Sign::Zero) return vertex(cell.vertex);
   for (int i = 0; i < 2; ++i)
     if (signs[i] == Sign::Zero) return edge(cell.edges[i][index_of(signs[1 - i])]);
@@ -208,7 +220,8 @@ Feature PointLocator::Tables::locate(const P& point) const {
     if (where == Sign::Zero) boundary = k;
   }
   const Feature inside = in_cell(cell_of(point, kernel), point, kernel);
-  return boundary < 0 ? inside : on_boundary(boundary, inside, exact(point));
+  const bool is_known = inside.kind != Feature::Kind::Undecided;
+  return boundary < 0 || !is_known ? inside : on_boundary(boundary, inside, exact(point));
 }
 
 Feature PointLocator::locate(const Point<2>& point) const {

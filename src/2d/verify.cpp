@@ -66,6 +66,25 @@ bool is_curve(const Polynomial<2>& f) {
   return f.degree() >= 1 && f.degree() <= kMaxDegree;
 }
 
+/// (That operations have their operands, earlier ones, is so by construction.)
+bool is_curve(const Expression& f) {
+  for (const Expression::Step& step : f.steps())
+    if (step.operation == Operation::Constant && !proper(step.constant)) return false;
+  return (f.uses(0) || f.uses(1)) && !f.uses(2);
+}
+
+void check_function(Claims& claims, const char* name, std::size_t i, const Function<2>& function) {
+  if (function.is_polynomial()) {
+    claims.require(is_curve(function.polynomial()), name, " ", i,
+                   " is not a polynomial of degree 1 to ", kMaxDegree, ".");
+  } else {
+    claims.require(is_curve(function.expression()), name, " ", i,
+                   " is not an expression in x and y.");
+    claims.require(!claims.result.region.plane, name, " ", i,
+                   " is no polynomial: nothing is proved of it in the whole plane.");
+  }
+}
+
 bool is_line(const Line& line) {
   if (!finite(line.normal) || !finite(line.offset)) return false;
   if (line.normal[0] == 0 && line.normal[1] == 0) return false;
@@ -94,12 +113,10 @@ void check_input_structure(Claims& claims) {
   claims.require(finite(e.perturbation) && e.perturbation >= 0,
                  "The perturbation is not a number.");
   for (std::size_t i = 0; i < e.input.size(); ++i)
-    claims.require(is_curve(e.input[i].function.polynomial()), "Input curve ", i,
-                   " is not a polynomial of degree 1 to ", kMaxDegree, ".");
+    check_function(claims, "Input curve", i, e.input[i].function);
   for (std::size_t i = 0; i < e.curves.size(); ++i) {
     const Curve& curve = e.curves[i];
-    claims.require(is_curve(curve.function.polynomial()), "Curve ", i,
-                   " is not a polynomial of degree 1 to ", kMaxDegree, ".");
+    check_function(claims, "Curve", i, curve.function);
     bool sources = !curve.sources.empty() && ascending(curve.sources);
     for (int s : curve.sources) sources = sources && in_range(s, e.input);
     claims.require(sources, "Curve ", i, " does not name ascending indices of input curves.");
@@ -240,7 +257,7 @@ void check_certificate_structure(Claims& claims) {
       claims.require(curves, name, " entry ", i, " does not name ascending indices of curves.");
       claims.require(!u.has_box || ordered(u.box), name, " entry ", i, " has a bad box.");
       claims.require(component || u.kind == Kind::Contact || u.kind == Kind::SingularPoint ||
-                         u.kind == Kind::Concurrency ||
+                         u.kind == Kind::Concurrency || u.kind == Kind::NotAnalytic ||
                          (u.kind == Kind::Infinity && e.region.plane) || u.kind == Kind::Budget,
                      name, " entry ", i, " has no valid kind.");
     }
@@ -284,8 +301,7 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options) 
   // Index errors and the like first, so that everything below may follow indices freely.
   if (!check_structure(claims)) return claims.report;
   claims.curves.reserve(encasement.curves.size());
-  for (const Curve& curve : encasement.curves)
-    claims.curves.emplace_back(curve.function);
+  for (const Curve& curve : encasement.curves) claims.curves.emplace_back(curve.function);
 
   // The cheap statements that everything refers to.
   check_outcome(claims);

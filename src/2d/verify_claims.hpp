@@ -83,8 +83,9 @@ void for_each(Claims& claims, std::size_t count,
 /// later checks rely on it: false ends the verification.
 bool check_structure(Claims& claims);
 
-/// The encased curves are square-free, pairwise coprime, and together have the zeros of the input;
-/// repeated and shared components are reported, and no others.
+/// The encased polynomials are square-free, pairwise coprime, and together have the zeros of those
+/// of the input; the expressions are those of the input, equal ones once. Repeated and shared
+/// components are reported, and no others.
 void check_curves(Claims& claims);
 
 /// The two regions are convex polygons; the region used contains the region asked for, exceeds it

@@ -66,7 +66,8 @@ bool outside_region_used(Claims& claims, const Box<2>& box) {
 }
 
 /// Whether the box lies in that of an unresolved entry which names all the curves. A budget that
-/// names none concerns all of them.
+/// names none concerns all of them, and where one curve's function is not analytic its pairs are
+/// not resolved.
 bool unresolved(const Encasement& e, const Box<2>& box, const std::vector<int>& curves) {
   for (const auto* list : {&e.degenerate, &e.undecided})
     for (const Unresolved& u : *list) {
@@ -75,6 +76,11 @@ bool unresolved(const Encasement& e, const Box<2>& box, const std::vector<int>& 
         continue;
       if (u.kind == Unresolved::Kind::Budget && u.curves.empty()) return true;
       if (std::includes(u.curves.begin(), u.curves.end(), curves.begin(), curves.end()))
+        return true;
+      if (u.kind == Unresolved::Kind::NotAnalytic &&
+          std::any_of(curves.begin(), curves.end(), [&](int c) {
+            return std::binary_search(u.curves.begin(), u.curves.end(), c);
+          }))
         return true;
     }
   return false;

@@ -34,11 +34,15 @@ Univariate restriction(const Polynomial<2>& f, const RationalPoint<2>& p,
   return sum;
 }
 
-/// Whether f and g have a common zero on the closed segment from p to q within the closed box,
-/// proved by the greatest common divisor of their restrictions.
-bool common_zero_on_segment(const Polynomial<2>& f, const Polynomial<2>& g,
-                            const RationalPoint<2>& p, const RationalPoint<2>& q,
-                            const Box<2>& box) {
+/// Whether a crossing's curves have a common zero on the closed segment from p to q within the
+/// crossing's closed box, proved by the greatest common divisor of their restrictions. Of others
+/// than polynomials that is never proved.
+bool common_zero_on_segment(const Encasement& e, const Crossing& crossing,
+                            const RationalPoint<2>& p, const RationalPoint<2>& q) {
+  const Function<2>& first_curve = e.curves[static_cast<std::size_t>(crossing.curves[0])].function;
+  const Function<2>& second_curve = e.curves[static_cast<std::size_t>(crossing.curves[1])].function;
+  if (!first_curve.is_polynomial() || !second_curve.is_polynomial()) return false;
+  const Box<2>& box = crossing.box;
   Rational first = 0, last = 1;
   for (std::size_t i = 0; i < 2; ++i) {
     const Rational lo(box.lo[i]), hi(box.hi[i]), along = q[i] - p[i];
@@ -51,7 +55,8 @@ bool common_zero_on_segment(const Polynomial<2>& f, const Polynomial<2>& g,
     last = std::min(last, std::max(at_lo, at_hi));
   }
   if (first > last) return false;
-  const Univariate common = gcd(restriction(f, p, q), restriction(g, p, q));
+  const Univariate common = gcd(restriction(first_curve.polynomial(), p, q),
+                                restriction(second_curve.polynomial(), p, q));
   if (common.is_zero() || common.is_constant()) return common.is_zero();
   if (first == last) return common({first}) == 0;
   return count_real_roots(common, first, last) > 0;
@@ -123,12 +128,7 @@ bool rounding_is_proved(Claims& claims, const Crossing& crossing) {
     from[i] = to[i] = crossing.point[i];
     from[1 - i] = crossing.box.lo[1 - i];
     to[1 - i] = crossing.box.hi[1 - i];
-    const auto& curves = claims.result.curves;
-    if (!common_zero_on_segment(
-            curves[static_cast<std::size_t>(crossing.curves[0])].function.polynomial(),
-            curves[static_cast<std::size_t>(crossing.curves[1])].function.polynomial(), from, to,
-            crossing.box))
-      return false;
+    if (!common_zero_on_segment(claims.result, crossing, from, to)) return false;
   }
   return true;
 }
@@ -162,12 +162,18 @@ bool location_is_proved(const Encasement& e, const Crossing& crossing) {
   if (inside || outside) return false;
   // The box holds one common zero: one on a side is that one.
   for (std::size_t k = 0; k < n; ++k)
-    if (common_zero_on_segment(
-            e.curves[static_cast<std::size_t>(crossing.curves[0])].function.polynomial(),
-            e.curves[static_cast<std::size_t>(crossing.curves[1])].function.polynomial(),
-            e.region.corners[k], e.region.corners[(k + 1) % n], crossing.box))
+    if (common_zero_on_segment(e, crossing, e.region.corners[k], e.region.corners[(k + 1) % n]))
       return true;
   return false;
+}
+
+/// Whether an undecided entry with the crossing's box says that something about it is open.
+bool is_left_open(const Encasement& e, const Crossing& crossing) {
+  return std::any_of(e.undecided.begin(), e.undecided.end(), [&](const Unresolved& u) {
+    return u.has_box && u.kind == Unresolved::Kind::Budget && u.box.contains(crossing.box) &&
+           std::includes(u.curves.begin(), u.curves.end(), crossing.curves.begin(),
+                         crossing.curves.end());
+  });
 }
 
 void check_place(Claims& claims, const Partition& partition, std::size_t i) {
@@ -218,8 +224,8 @@ void check_crossings(Claims& claims, const Partition& partition) {
                       " is not proved to hold exactly one common point."))
       return;
     check_place(part, partition, i);
-    part.require(location_is_proved(e, c), "The location of crossing ", i,
-                 " in the region is not proved.");
+    part.require(location_is_proved(e, c) || (c.location == Location::Inside && is_left_open(e, c)),
+                 "The location of crossing ", i, " in the region is not proved.");
     if (c.rounded)
       part.require(rounding_is_proved(part, c), "The point of crossing ", i,
                    " is not proved to be correctly rounded.");

@@ -24,37 +24,55 @@ bool proportional(const Polynomial<2>& f, const Polynomial<2>& g) {
   return true;
 }
 
-/// Whether the curves are, up to constants, the input curves one by one.
-bool one_to_one(const Encasement& e) {
-  std::set<int> inputs;
-  for (const Curve& curve : e.curves) {
-    if (curve.sources.size() != 1 || !inputs.insert(curve.sources[0]).second) return false;
-    if (!proportional(curve.function.polynomial(),
-                      e.input[static_cast<std::size_t>(curve.sources[0])].function.polynomial()))
+/// The indices of the functions in a list that are polynomials, or of those that are none.
+template <class Named>
+std::vector<int> of_kind(const std::vector<Named>& list, bool polynomials) {
+  std::vector<int> indices;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (list[k].function.is_polynomial() == polynomials) indices.push_back(static_cast<int>(k));
+  return indices;
+}
+
+const Function<2>& input_function(const Encasement& e, int i) {
+  return e.input[static_cast<std::size_t>(i)].function;
+}
+const Curve& curve_at(const Encasement& e, int c) { return e.curves[static_cast<std::size_t>(c)]; }
+
+/// Whether the curves are, up to constants, the input curves one by one: of those that are
+/// polynomials.
+bool one_to_one(const Encasement& e, const std::vector<int>& inputs,
+                const std::vector<int>& curves) {
+  std::set<int> seen;
+  for (const int c : curves) {
+    const Curve& curve = curve_at(e, c);
+    if (curve.sources.size() != 1 || !seen.insert(curve.sources[0]).second) return false;
+    const Function<2>& source = input_function(e, curve.sources[0]);
+    if (!source.is_polynomial() || !proportional(curve.function.polynomial(), source.polynomial()))
       return false;
   }
-  return inputs.size() == e.input.size();
+  return seen.size() == inputs.size();
 }
 
 /// The polynomials' common refinement assigns every irreducible factor its sources.
 void check_factors(Claims& claims, std::set<int>* repeated) {
   const Encasement& e = claims.result;
-  const int n = static_cast<int>(e.input.size());
-  const bool generic = one_to_one(e);
+  const std::vector<int> all_inputs = of_kind(e.input, true), all_curves = of_kind(e.curves, true);
+  const bool generic = one_to_one(e, all_inputs, all_curves);
   std::vector<Polynomial<2>> polynomials;
   if (!generic)
-    for (const NamedCurve& input : e.input) polynomials.push_back(input.function.polynomial());
-  for (const Curve& curve : e.curves) polynomials.push_back(curve.function.polynomial());
-  const int first_curve = generic ? 0 : n;
+    for (const int i : all_inputs) polynomials.push_back(input_function(e, i).polynomial());
+  const std::size_t first_curve = polynomials.size();
+  for (const int c : all_curves) polynomials.push_back(curve_at(e, c).function.polynomial());
 
   for (const auto& element : coprime_square_free_base(polynomials)) {
     std::vector<int> inputs, curves;
     for (const auto& source : element.sources) {
-      if (source.index < first_curve) {
-        inputs.push_back(source.index);
-        if (source.multiplicity > 1) repeated->insert(source.index);
+      const auto k = static_cast<std::size_t>(source.index);
+      if (k < first_curve) {
+        inputs.push_back(all_inputs[k]);
+        if (source.multiplicity > 1) repeated->insert(inputs.back());
       } else {
-        curves.push_back(source.index - first_curve);
+        curves.push_back(all_curves[k - first_curve]);
         claims.require(source.multiplicity == 1, "Curve ", curves.back(),
                        " has a repeated component.");
       }
@@ -65,9 +83,27 @@ void check_factors(Claims& claims, std::set<int>* repeated) {
     else if (curves.empty())
       claims.require(false, "A component of input curve ", inputs[0], " is in no curve.");
     else if (!generic)
-      claims.require(inputs == e.curves[static_cast<std::size_t>(curves[0])].sources, "Curve ",
-                     curves[0], " does not have the components that its sources say.");
+      claims.require(inputs == curve_at(e, curves[0]).sources, "Curve ", curves[0],
+                     " does not have the components that its sources say.");
   }
+}
+
+/// Expressions are taken as they are, equal ones once. (That they have no component in common, and
+/// none twice, is not known beforehand: where they had one, no cover could be proved.)
+void check_expressions(Claims& claims) {
+  const Encasement& e = claims.result;
+  std::vector<int> count(e.input.size(), 0);
+  for (const int c : of_kind(e.curves, false)) {
+    std::vector<int> equal;
+    for (const int i : of_kind(e.input, false))
+      if (input_function(e, i) == curve_at(e, c).function) equal.push_back(i);
+    for (const int i : equal) ++count[static_cast<std::size_t>(i)];
+    claims.require(equal == curve_at(e, c).sources, "Curve ", c,
+                   " is not the expression of its sources, or not of them alone.");
+  }
+  for (const int i : of_kind(e.input, false))
+    claims.require(count[static_cast<std::size_t>(i)] == 1, "The expression of input curve ", i,
+                   " is not that of one curve.");
 }
 
 /// The reported components are those there are.
@@ -214,6 +250,7 @@ void check_infinity(Claims& claims) {
 void check_curves(Claims& claims) {
   std::set<int> repeated;
   check_factors(claims, &repeated);
+  check_expressions(claims);
   check_components(claims, repeated);
 }
 

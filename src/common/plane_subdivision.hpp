@@ -213,8 +213,9 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visi
   int here = 0;
   while (top >= 0) {
     Node& node = stack_[top];
+    // Those of ancestors stay: not that of the other half, which holds nothing of this one.
     for (auto& list : local_)
-      while (!list.empty() && list.back().level > node.level) list.pop_back();
+      while (!list.empty() && list.back().level >= node.level) list.pop_back();
     ++here;
     if (++boxes_ % 64 == 0 && !stopped_) stopped_ = limits_.stop && limits_.stop();
     const int token = stopped_ ? cover::kUnresolved : token_of(node, visit);
