@@ -25,7 +25,7 @@ inline void limit(Regularity& regularity, Regularity bound) {
 /// at points of its operands; functions that do not have one everywhere limit `regularity` to what
 /// is proved, and return the whole line where it becomes Nowhere. Precision is that of the first
 /// operand. Enclosures of doubles are those of MPFR's correct rounding or wider by a few units in
-/// the last place (docs/error-bounds.md, section 11).
+/// the last place (docs/error-bounds.md, "Elementary functions in doubles").
 namespace elementary {
 
 inline Interval whole_line() {
