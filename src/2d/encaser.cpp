@@ -159,7 +159,7 @@ Status Encaser::check_expression(const NamedCurve& curve) const {
                      "' is no polynomial: it can be encased in a bounded region, not in the plane");
   if (result_.perturbation > 0)
     return bad_input("curve '" + curve.name +
-                     "' is no polynomial: it has no coefficients to be perturbed");
+                     "' is no polynomial: only those can be perturbed");
   return std::nullopt;
 }
 
