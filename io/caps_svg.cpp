@@ -166,9 +166,8 @@ class CapsPicture {
   }
 
   static std::string stroke(int curve) {
-    std::string text =
-        fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linecap=\"round\"",
-                    colour(curve));
+    std::string text = fmt::format(
+        "fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linecap=\"round\"", colour(curve));
     return text;
   }
 
@@ -216,9 +215,8 @@ class CapsPicture {
     std::vector<LegendEntry> entries;
     constexpr std::size_t kMost = 24;
     for (std::size_t c = 0; c < std::min(r_.curves.size(), kMost); ++c)
-      entries.push_back(
-          {fmt::format("<path {} d=\"M-11 0H11\"/>", stroke(static_cast<int>(c))),
-           shortened(r_.curves[c].name, 40)});
+      entries.push_back({fmt::format("<path {} d=\"M-11 0H11\"/>", stroke(static_cast<int>(c))),
+                         shortened(r_.curves[c].name, 40)});
     if (r_.curves.size() > kMost)
       entries.push_back({"", fmt::format("and {} more", r_.curves.size() - kMost)});
     for (std::size_t kind = 0; kind < kMarks.size(); ++kind)

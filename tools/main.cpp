@@ -96,8 +96,9 @@ void add_curves(CLI::App& app, encase::CurvesRequest& r) {
 
 void add_caps(CLI::App& app, encase::CapsRequest& r) {
   CLI::App* c = app.add_subcommand(
-      "caps", "The arrangement of curves by a quadtree of a given depth (CAPS), also of curves "
-              "with an inclusion function only");
+      "caps",
+      "The arrangement of curves by a quadtree of a given depth (CAPS), also of curves "
+      "with an inclusion function only");
   c->add_option("FILE", r.file, "curves and region, as text or JSON; - is standard input");
   c->add_option("-e", r.expressions, "a curve, instead of FILE: an expression or lhs = rhs")
       ->type_name("EXPR")

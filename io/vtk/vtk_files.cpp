@@ -73,7 +73,7 @@ Status write_history(const Encasement& e, const std::string& directory) {
   for (std::size_t k = 0; k < cuts.size(); ++k) {
     VtkTable table;
     if (Status bad = write_data_set(fill_step(e, polygons, cuts[k], &table), files.temporary(),
-                           step_name(static_cast<int>(k)), directory + "/history"))
+                                    step_name(static_cast<int>(k)), directory + "/history"))
       return bad;
   }
   if (Status bad = files.commit()) return bad;
@@ -91,8 +91,8 @@ Status write_vtk(const Encasement& encasement, const std::string& directory, boo
   const auto more = [&]() -> Status {
     return history ? write_history(encasement, directory) : std::nullopt;
   };
-  return write_multiblock(directory, field_data(encasement),
-                          {kVtkBlocks.begin(), kVtkBlocks.end()}, fill, more);
+  return write_multiblock(directory, field_data(encasement), {kVtkBlocks.begin(), kVtkBlocks.end()},
+                          fill, more);
 }
 
 }  // namespace encase

@@ -24,8 +24,8 @@ std::string multiblock_file(const FieldData& field_data, const std::vector<const
       "  <vtkMultiBlockDataSet>\n";
   for (std::size_t k = 0; k < blocks.size(); ++k)
     fmt::format_to(std::back_inserter(out),
-                   "    <DataSet index=\"{}\" name=\"{}\" file=\"result/{}.vtp\"/>\n", k,
-                   blocks[k], blocks[k]);
+                   "    <DataSet index=\"{}\" name=\"{}\" file=\"result/{}.vtp\"/>\n", k, blocks[k],
+                   blocks[k]);
   out += "  </vtkMultiBlockDataSet>\n  <FieldData>\n";
   // Text in VTK's ASCII form: the codes of its bytes, with a zero at each string's end.
   for (const auto& [name, values] : field_data) {

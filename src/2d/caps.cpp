@@ -58,8 +58,8 @@ CapsObstacles obstacles_of(const CapsResult& r) {
     obstacles.indeterminate_leaves += count > 1 && leaf.label == CapsLabel::Indeterminate;
   }
   for (const CapsVertex& vertex : r.vertices)
-    obstacles.open_vertices += vertex.kind != CapsVertex::Kind::Crossing &&
-                               vertex.kind != CapsVertex::Kind::Boundary;
+    obstacles.open_vertices +=
+        vertex.kind != CapsVertex::Kind::Crossing && vertex.kind != CapsVertex::Kind::Boundary;
   for (const CapsEdge& edge : r.edges) obstacles.open_edges += !edge.proved;
   return obstacles;
 }
@@ -72,8 +72,7 @@ Result<CapsResult> caps(const std::vector<NamedCurve>& curves, const Region& reg
   RunClock clock;
   const char* stage = "subdividing";
   const std::function<bool()> stop = [&] {
-    return clock.exceeds(options.max_seconds) ||
-           (options.progress && !options.progress(stage, -1));
+    return clock.exceeds(options.max_seconds) || (options.progress && !options.progress(stage, -1));
   };
 
   // 1. Inclusion functions (section 2 of the paper).
@@ -105,7 +104,7 @@ Result<CapsResult> caps(const std::vector<NamedCurve>& curves, const Region& reg
   result.edges = std::move(graph.edges);
   for (const CurveBounds& b : bounds) result.evaluations += b.evaluations();
   result.obstacles = obstacles_of(result);
-  result.answer = tree.cut_short            ? CapsClass::Undecided
+  result.answer = tree.cut_short           ? CapsClass::Undecided
                   : result.obstacles.any() ? CapsClass::DeltaWeak
                                            : CapsClass::Exact;
   result.seconds = clock.seconds();
