@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -35,10 +37,11 @@ using Arcs = std::vector<std::array<int, 2>>;
 class GraphMaker {
  public:
   GraphMaker(const CapsTree& tree, std::vector<CapsRegion>& regions,
-             std::vector<CurveBounds>& curves)
+             std::vector<CurveBounds>& curves, const std::function<bool()>& stop)
       : tree_(tree),
         regions_(regions),
         curves_(curves),
+        stop_(stop),
         leaf_count_(static_cast<int>(tree.leaves.size())) {}
 
   CapsGraph make(bool polylines) {
@@ -119,6 +122,8 @@ class GraphMaker {
   const CapsTree& tree_;
   std::vector<CapsRegion>& regions_;
   std::vector<CurveBounds>& curves_;
+  const std::function<bool()>& stop_;
+  std::int64_t sides_ = 0;  ///< looked at
   const int leaf_count_;
   std::vector<End> ends_;
   std::vector<bool> open_;  ///< units on a side of which the zeros of a curve are not known
@@ -161,8 +166,9 @@ void GraphMaker::find_ends() {
 void GraphMaker::pass(int c, int first, int second, const Box<2>& segment, int along) {
   const auto unknown = [&](int unit) { return is_leaf(unit) && leaf(unit).graph_axis < 0; };
   const bool both_unknown = unknown(first) && unknown(second);
+  if (++sides_ % 256 == 0 && !graph_.cut_short) graph_.cut_short = stop_ && stop_();
   std::optional<std::vector<Box<2>>> roots;
-  if (!both_unknown) roots = side_roots(curve(c), segment, along);
+  if (!both_unknown && !graph_.cut_short) roots = side_roots(curve(c), segment, along);
   if (roots) {
     for (const Box<2>& root : *roots) ends_.push_back({c, root, {first, second}});
     return;
@@ -391,8 +397,9 @@ void GraphMaker::collect_edges(bool polylines) {
 }  // namespace
 
 CapsGraph make_graph(const CapsTree& tree, std::vector<CapsRegion>& regions,
-                     std::vector<CurveBounds>& curves, bool polylines) {
-  return GraphMaker(tree, regions, curves).make(polylines);
+                     std::vector<CurveBounds>& curves, bool polylines,
+                     const std::function<bool()>& stop) {
+  return GraphMaker(tree, regions, curves, stop).make(polylines);
 }
 
 }  // namespace encase
