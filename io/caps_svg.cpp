@@ -19,11 +19,21 @@ namespace {
 
 constexpr const char* kSeveral = "#c1121f";
 constexpr const char* kOpen = "#7b2cbf";
-constexpr double kVisible = 0.6;  ///< smaller leaves, in pixels, have no outlines
-constexpr double kSample = 2;     ///< pixels between the points at which curves are sampled
-constexpr double kApart = 5;      ///< marks of equal kind nearer than this, in pixels, are one
+constexpr double kVisible = 0.6;     ///< smaller leaves, in pixels, have no outlines
+constexpr double kSample = 2;        ///< pixels between the points at which curves are sampled
+constexpr double kFineSample = 0.6;  ///< where a curve is not proved to be a graph
+constexpr double kApart = 5;         ///< marks of equal kind nearer than this, in pixels, are one
 
 using Kind = CapsVertex::Kind;
+
+// Sampled curves cannot have dashes: further colours, darker than the first ones.
+constexpr std::array<const char*, 6> kMoreColours = {"#08306b", "#7f2704", "#00441b",
+                                                     "#67001f", "#3f007d", "#665200"};
+
+const char* colour_of(int curve) {
+  const int k = curve % 12;
+  return k < 6 ? colour(k) : kMoreColours[static_cast<std::size_t>(k - 6)];
+}
 
 /// How a kind of vertex is marked, in the order of its enumerators.
 struct Mark {
@@ -90,7 +100,7 @@ class CapsPicture {
     const bool one = curves_in(leaf).size() == 1;
     if (leaf.label == CapsLabel::Empty) return "";
     if (leaf.label == CapsLabel::OneCurve || one)
-      return fmt::format("fill=\"{}\" fill-opacity=\"{}\"", colour(curves_in(leaf)[0]),
+      return fmt::format("fill=\"{}\" fill-opacity=\"{}\"", colour_of(curves_in(leaf)[0]),
                          leaf.label == CapsLabel::OneCurve ? "0.12" : "0.3");
     return fmt::format("fill=\"{}\"", leaf.label == CapsLabel::Several ? kSeveral : kOpen);
   }
@@ -125,11 +135,13 @@ class CapsPicture {
   }
 
   /// The zeros of a curve in a leaf, sampled: where its sign changes on a grid of squares.
-  std::string sampled(CurveBounds& curve, const Box<2>& box) const {
+  std::string sampled(CurveBounds& curve, const CapsLeaf& leaf) const {
+    const Box<2>& box = leaf.box;
+    const double step = leaf.graph_axis < 0 ? kFineSample : kSample;
     std::array<int, 2> count;
     for (int i = 0; i < 2; ++i) {
       const double length = box.width(i) * (i == 0 ? view_.scale_x : view_.scale_y);
-      count[i] = std::clamp(static_cast<int>(std::ceil(length / kSample)), 1, 1000);
+      count[i] = std::clamp(static_cast<int>(std::ceil(length / step)), 1, 2000);
     }
     const auto at = [&](int i, int j) -> Point<2> {
       return {box.lo[0] + box.width(0) * i / count[0], box.lo[1] + box.width(1) * j / count[1]};
@@ -168,7 +180,7 @@ class CapsPicture {
   static std::string stroke(int curve) {
     std::string text =
         fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linecap=\"round\"",
-                    colour(curve));
+                    colour_of(curve));
     return text;
   }
 
@@ -179,7 +191,7 @@ class CapsPicture {
       std::string path;
       for (const CapsLeaf& leaf : r_.leaves)
         if (curves_in(leaf) == std::vector<int>{c} && view_.extent(leaf.box) >= kVisible)
-          path += sampled(curve, leaf.box);
+          path += sampled(curve, leaf);
       if (!path.empty())
         add("<path {} d=\"{}\"><title>{}</title></path>\n", stroke(c), path,
             escaped(r_.curves[static_cast<std::size_t>(c)].name));
@@ -216,9 +228,8 @@ class CapsPicture {
     std::vector<LegendEntry> entries;
     constexpr std::size_t kMost = 24;
     for (std::size_t c = 0; c < std::min(r_.curves.size(), kMost); ++c)
-      entries.push_back(
-          {fmt::format("<path {} d=\"M-11 0H11\"/>", stroke(static_cast<int>(c))),
-           shortened(r_.curves[c].name, 40)});
+      entries.push_back({fmt::format("<path {} d=\"M-11 0H11\"/>", stroke(static_cast<int>(c))),
+                         shortened(r_.curves[c].name, 40)});
     if (r_.curves.size() > kMost)
       entries.push_back({"", fmt::format("and {} more", r_.curves.size() - kMost)});
     for (std::size_t kind = 0; kind < kMarks.size(); ++kind)

@@ -29,8 +29,7 @@ Error bad_input(const std::string& message) { return {Error::Code::BadInput, mes
 
 Status check_request(const CapsRequest& r) {
   if (r.file.empty() == r.expressions.empty())
-    return bad_input(
-        "give either a FILE of curves or expressions with -e; see encase caps --help");
+    return bad_input("give either a FILE of curves or expressions with -e; see encase caps --help");
   if ((r.json == "-") + (r.svg == "-") + r.summary > 1)
     return bad_input("only one of --json -, --svg - and --summary can have standard output");
   if (!std::isfinite(r.options.max_seconds))
@@ -72,8 +71,8 @@ std::string vertex_table(const CapsResult& r) {
     const CapsVertex& vertex = r.vertices[v];
     const Point<2> center = vertex.box.center();
     fmt::format_to(out, "{:>5}  {:<13}  {:<{}}  {:>14.8g}  {:>14.8g}  {:>8.1e}\n", v,
-                   words(name_of(kCapsVertexKinds, vertex.kind)), names_of(r, vertex.curves),
-                   width, center[0], center[1], vertex.box.largest_width());
+                   words(name_of(kCapsVertexKinds, vertex.kind)), names_of(r, vertex.curves), width,
+                   center[0], center[1], vertex.box.largest_width());
   }
   if (shown < r.vertices.size())
     fmt::format_to(out, "  and {} more: --json lists them all\n", r.vertices.size() - shown);

@@ -60,13 +60,13 @@ struct CapsRegion {
 /// apart there) or where a curve may cross itself, or a point where a curve leaves the box.
 struct CapsVertex {
   enum class Kind {
-    Crossing,      ///< two curves that cross exactly once, transversally: proved
-    Odd,           ///< two curves that meet an odd number of times, it seems from their ends
-    Even,          ///< two curves in contact, or that meet an even number of times, or not at all
-    Several,       ///< three or more curves
-    SelfCrossing,  ///< one curve that may cross itself, or be singular
-    Indeterminate, ///< two curves, and how often they meet is not known
-    Boundary       ///< one curve leaves the box, proved
+    Crossing,       ///< two curves that cross exactly once, transversally: proved
+    Odd,            ///< two curves that meet an odd number of times, it seems from their ends
+    Even,           ///< two curves in contact, or that meet an even number of times, or not at all
+    Several,        ///< three or more curves
+    SelfCrossing,   ///< one curve that may cross itself, or be singular
+    Indeterminate,  ///< two curves, and how often they meet is not known
+    Boundary        ///< one curve leaves the box, proved
   };
   Kind kind = Kind::Indeterminate;
   int region = -1;          ///< -1 of Boundary

@@ -2,6 +2,8 @@
 #include "encase/caps.hpp"
 
 #include <cmath>
+#include <functional>
+#include <string>
 #include <utility>
 
 #include "2d/caps_graph.hpp"
@@ -40,6 +42,8 @@ Status check_input(const std::vector<NamedCurve>& curves, const Region& region,
     return bad_input(
         "CAPS subdivides a rectangle along the axes: give the region as \"xmin xmax ymin ymax\"");
   const Box<2> box = region.bounding_box();
+  if (!std::isfinite(box.width(0)) || !std::isfinite(box.width(1)))
+    return bad_input("the region is too large");
   if (!(options.epsilon > 0) || !std::isfinite(options.epsilon))
     return bad_input("epsilon must be a positive number");
   if (options.epsilon > box.width(0) || options.epsilon > box.width(1))
@@ -58,8 +62,8 @@ CapsObstacles obstacles_of(const CapsResult& r) {
     obstacles.indeterminate_leaves += count > 1 && leaf.label == CapsLabel::Indeterminate;
   }
   for (const CapsVertex& vertex : r.vertices)
-    obstacles.open_vertices += vertex.kind != CapsVertex::Kind::Crossing &&
-                               vertex.kind != CapsVertex::Kind::Boundary;
+    obstacles.open_vertices +=
+        vertex.kind != CapsVertex::Kind::Crossing && vertex.kind != CapsVertex::Kind::Boundary;
   for (const CapsEdge& edge : r.edges) obstacles.open_edges += !edge.proved;
   return obstacles;
 }
@@ -72,8 +76,7 @@ Result<CapsResult> caps(const std::vector<NamedCurve>& curves, const Region& reg
   RunClock clock;
   const char* stage = "subdividing";
   const std::function<bool()> stop = [&] {
-    return clock.exceeds(options.max_seconds) ||
-           (options.progress && !options.progress(stage, -1));
+    return clock.exceeds(options.max_seconds) || (options.progress && !options.progress(stage, -1));
   };
 
   // 1. Inclusion functions (section 2 of the paper).
@@ -89,7 +92,8 @@ Result<CapsResult> caps(const std::vector<NamedCurve>& curves, const Region& reg
   result.regions = label_regions(tree, options.self_crossings);
 
   // 4. The arrangement graph.
-  CapsGraph graph = make_graph(tree, result.regions, bounds, options.polylines);
+  stage = "making the graph";
+  CapsGraph graph = make_graph(tree, result.regions, bounds, options.polylines, stop);
 
   // 5. How good it is.
   result.epsilon = options.epsilon;
@@ -105,9 +109,9 @@ Result<CapsResult> caps(const std::vector<NamedCurve>& curves, const Region& reg
   result.edges = std::move(graph.edges);
   for (const CurveBounds& b : bounds) result.evaluations += b.evaluations();
   result.obstacles = obstacles_of(result);
-  result.answer = tree.cut_short            ? CapsClass::Undecided
-                  : result.obstacles.any() ? CapsClass::DeltaWeak
-                                           : CapsClass::Exact;
+  result.answer = CapsClass::Exact;
+  if (result.obstacles.any()) result.answer = CapsClass::DeltaWeak;
+  if (tree.cut_short || graph.cut_short) result.answer = CapsClass::Undecided;
   result.seconds = clock.seconds();
   return result;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -22,6 +24,12 @@ struct End {
   std::array<int, 2> units{};  ///< the second may be kOutside
 };
 
+/// Where one goes from an end within the units on both sides, as far as it is known: to another
+/// end, or to a vertex (~vertex).
+struct Links {
+  std::array<int, 2> to{};
+  int count = 0;
+};
 
 /// Pairs of ends that arcs of a curve join.
 using Arcs = std::vector<std::array<int, 2>>;
@@ -29,10 +37,11 @@ using Arcs = std::vector<std::array<int, 2>>;
 class GraphMaker {
  public:
   GraphMaker(const CapsTree& tree, std::vector<CapsRegion>& regions,
-             std::vector<CurveBounds>& curves)
+             std::vector<CurveBounds>& curves, const std::function<bool()>& stop)
       : tree_(tree),
         regions_(regions),
         curves_(curves),
+        stop_(stop),
         leaf_count_(static_cast<int>(tree.leaves.size())) {}
 
   CapsGraph make(bool polylines) {
@@ -87,13 +96,17 @@ class GraphMaker {
   CapsVertex::Kind guess_meeting(int r, const std::vector<int>& pair);
   void settle_boundary();
   int add_vertex(CapsVertex::Kind kind, int region, std::vector<int> curves, const Box<2>& box);
+  void add_link(int e, int to) {
+    Links& links = links_[static_cast<std::size_t>(e)];
+    links.to[static_cast<std::size_t>(links.count++)] = to;
+  }
   void attach(int e, int vertex) {
-    links_[static_cast<std::size_t>(e)].push_back(~vertex);
+    add_link(e, ~vertex);
     attached_.emplace_back(e, vertex);
   }
   void link(int a, int b) {
-    links_[static_cast<std::size_t>(a)].push_back(b);
-    links_[static_cast<std::size_t>(b)].push_back(a);
+    add_link(a, b);
+    add_link(b, a);
     sets_->join(a, b);
   }
   int item_of_blob(int k) const { return static_cast<int>(ends_.size()) + k; }
@@ -109,16 +122,18 @@ class GraphMaker {
   const CapsTree& tree_;
   std::vector<CapsRegion>& regions_;
   std::vector<CurveBounds>& curves_;
+  const std::function<bool()>& stop_;
+  std::int64_t sides_ = 0;  ///< looked at
   const int leaf_count_;
   std::vector<End> ends_;
   std::vector<bool> open_;  ///< units on a side of which the zeros of a curve are not known
   std::vector<std::array<int, 2>> open_sides_;
   std::vector<std::size_t> first_end_;  ///< by unit, in unit_ends_
   std::vector<int> unit_ends_;
-  std::vector<std::vector<int>> links_;  ///< of the ends
-  std::optional<UnionFind> sets_;        ///< of ends, then of leaves that are blobs
-  std::vector<bool> blob_;               ///< leaves in which it is not known what joins their ends
-  std::vector<int> vertex_of_region_;          ///< or -1
+  std::vector<Links> links_;           ///< of the ends
+  std::optional<UnionFind> sets_;      ///< of ends, then of leaves that are blobs
+  std::vector<bool> blob_;             ///< leaves in which it is not known what joins their ends
+  std::vector<int> vertex_of_region_;  ///< or -1
   std::vector<std::pair<int, int>> attached_;  ///< ends and blobs to vertices
   CapsGraph graph_;
 };
@@ -151,8 +166,9 @@ void GraphMaker::find_ends() {
 void GraphMaker::pass(int c, int first, int second, const Box<2>& segment, int along) {
   const auto unknown = [&](int unit) { return is_leaf(unit) && leaf(unit).graph_axis < 0; };
   const bool both_unknown = unknown(first) && unknown(second);
+  if (++sides_ % 256 == 0 && !graph_.cut_short) graph_.cut_short = stop_ && stop_();
   std::optional<std::vector<Box<2>>> roots;
-  if (!both_unknown) roots = side_roots(curve(c), segment, along);
+  if (!both_unknown && !graph_.cut_short) roots = side_roots(curve(c), segment, along);
   if (roots) {
     for (const Box<2>& root : *roots) ends_.push_back({c, root, {first, second}});
     return;
@@ -191,9 +207,8 @@ std::optional<Arcs> GraphMaker::pair_up(std::vector<int> ends, int axis) const {
   if (ends.size() % 2) return std::nullopt;
   const auto lo = [&](int e) { return end(e).box.lo[axis]; };
   const auto hi = [&](int e) { return end(e).box.hi[axis]; };
-  std::sort(ends.begin(), ends.end(), [&](int a, int b) {
-    return std::pair(lo(a), hi(a)) < std::pair(lo(b), hi(b));
-  });
+  std::sort(ends.begin(), ends.end(),
+            [&](int a, int b) { return std::pair(lo(a), hi(a)) < std::pair(lo(b), hi(b)); });
   for (std::size_t k = 1; k < ends.size(); ++k)
     if (hi(ends[k - 1]) > lo(ends[k])) return std::nullopt;
   Arcs arcs;
@@ -297,8 +312,7 @@ void GraphMaker::settle_boundary() {
   for (std::size_t e = 0; e < ends_.size(); ++e) {
     const End& here = ends_[e];
     if (here.units[1] != kOutside) continue;
-    attach(static_cast<int>(e),
-           add_vertex(CapsVertex::Kind::Boundary, -1, {here.curve}, here.box));
+    attach(static_cast<int>(e), add_vertex(CapsVertex::Kind::Boundary, -1, {here.curve}, here.box));
   }
 }
 
@@ -322,8 +336,8 @@ void GraphMaker::join_openly(int first, int second) {
 /// The polyline from a vertex or, closed, from an end back to it.
 std::vector<Point<2>> GraphMaker::walk(int start, bool closed) const {
   std::vector<Point<2>> points;
-  const auto links = [&](int e) -> const std::vector<int>& {
-    return links_[static_cast<std::size_t>(e)];
+  const auto links = [&](int e) -> const std::array<int, 2>& {
+    return links_[static_cast<std::size_t>(e)].to;
   };
   const auto visit_vertex = [&](int vertex) {
     const CapsVertex& v = graph_.vertices[static_cast<std::size_t>(vertex)];
@@ -366,7 +380,8 @@ void GraphMaker::collect_edges(bool polylines) {
   };
   for (std::size_t e = 0; e < ends_.size(); ++e) edge_of(static_cast<int>(e), ends_[e].curve);
   for (int k = 0; k < leaf_count_; ++k)
-    if (blob_[static_cast<std::size_t>(k)]) edge_of(item_of_blob(k), curves_in(k)[0]).proved = false;
+    if (blob_[static_cast<std::size_t>(k)])
+      edge_of(item_of_blob(k), curves_in(k)[0]).proved = false;
   for (const auto& [item, vertex] : attached_) {
     const auto edge = static_cast<std::size_t>(number[static_cast<std::size_t>(sets_->find(item))]);
     graph_.edges[edge].vertices.push_back(vertex);
@@ -382,8 +397,9 @@ void GraphMaker::collect_edges(bool polylines) {
 }  // namespace
 
 CapsGraph make_graph(const CapsTree& tree, std::vector<CapsRegion>& regions,
-                     std::vector<CurveBounds>& curves, bool polylines) {
-  return GraphMaker(tree, regions, curves).make(polylines);
+                     std::vector<CurveBounds>& curves, bool polylines,
+                     const std::function<bool()>& stop) {
+  return GraphMaker(tree, regions, curves, stop).make(polylines);
 }
 
 }  // namespace encase

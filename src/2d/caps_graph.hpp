@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "2d/caps_tree.hpp"
@@ -17,10 +18,13 @@ std::vector<CapsRegion> label_regions(CapsTree& tree, bool singular_apart);
 struct CapsGraph {
   std::vector<CapsVertex> vertices;
   std::vector<CapsEdge> edges;
+  bool cut_short = false;  ///< what was left is not proved
 };
 
 /// The graph of vertices and edges; marks the regions where two curves are proved to be apart.
+/// `stop` is asked now and then; true ends the proofs.
 CapsGraph make_graph(const CapsTree& tree, std::vector<CapsRegion>& regions,
-                     std::vector<CurveBounds>& curves, bool polylines);
+                     std::vector<CurveBounds>& curves, bool polylines,
+                     const std::function<bool()>& stop);
 
 }  // namespace encase

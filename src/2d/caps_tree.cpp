@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -45,7 +46,10 @@ class Subdivider {
  public:
   Subdivider(std::vector<CurveBounds>& curves, const Box<2>& box, const CapsOptions& options,
              const std::function<bool()>& stop)
-      : curves_(curves), options_(options), stop_(stop) {
+      : curves_(curves),
+        options_(options),
+        stop_(stop),
+        rough_size_(std::sqrt(options.epsilon * box.largest_width())) {
     tree_.box = box;
     tree_.curve_sets.emplace_back();
     set_numbers_[{}] = 0;
@@ -75,6 +79,10 @@ class Subdivider {
   std::vector<CurveBounds>& curves_;
   const CapsOptions& options_;
   const std::function<bool()>& stop_;
+  /// Where the only curve may have a pole or a corner, boxes are not divided below this for the
+  /// sake of self-crossings: along a pole this takes 1 / sqrt(epsilon) boxes in place of
+  /// 1 / epsilon.
+  const double rough_size_;
   CapsTree tree_;
   std::map<std::vector<int>, int> set_numbers_;
   std::vector<Open> level_, next_;
@@ -103,8 +111,10 @@ void Subdivider::classify(const Open& open, int depth) {
     return end(open, depth, terminal ? CapsLabel::Several : CapsLabel::Indeterminate, -1);
   }
   const int curve = here_[0];
-  const int axis = look.graph_axis;
-  if (options_.self_crossings && axis < 0 && !terminal && can_divide(open.box))
+  const int axis = graph_axis(look.slopes);
+  const double least = look.slopes.smooth ? options_.epsilon : rough_size_;
+  if (options_.self_crossings && axis < 0 && open.box.largest_width() > least &&
+      can_divide(open.box))
     return divide(open);
   const CapsLabel label = settle(open.box, curve, look);
   if (label == CapsLabel::Empty) here_.clear();
@@ -146,8 +156,8 @@ CapsLabel Subdivider::settle(const Box<2>& box, int curve, const CurveBounds::Lo
 /// Whether there are doubles between the sides of a box, and the budget allows it.
 bool Subdivider::can_divide(const Box<2>& box) {
   const Point<2> cut = cut_of(box);
-  const bool possible = box.lo[0] < cut[0] && cut[0] < box.hi[0] && box.lo[1] < cut[1] &&
-                        cut[1] < box.hi[1];
+  const bool possible =
+      box.lo[0] < cut[0] && cut[0] < box.hi[0] && box.lo[1] < cut[1] && cut[1] < box.hi[1];
   if (static_cast<std::int64_t>(tree_.nodes.size()) + 4 > options_.max_boxes)
     tree_.cut_short = true;
   return possible && !tree_.cut_short;

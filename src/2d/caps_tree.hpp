@@ -53,8 +53,7 @@ class SharedSides {
   void between(int lower, int upper, int axis) {
     if (tree_.is_leaf(lower) && tree_.is_leaf(upper))
       return visit_(~tree_.nodes[lower], ~tree_.nodes[upper], axis);
-    for (int k = 0; k < 2; ++k)
-      between(along(lower, axis, 1, k), along(upper, axis, 0, k), axis);
+    for (int k = 0; k < 2; ++k) between(along(lower, axis, 1, k), along(upper, axis, 0, k), axis);
   }
   /// The node itself if it is a leaf, else its k-th child on one side.
   int along(int node, int axis, int side, int k) const {

@@ -46,9 +46,9 @@ CurveBounds::Look CurveBounds::look(const Box<2>& box) {
   if (natural.range().hi < 0) result.sign = Sign::Negative;
   result.absent = result.sign.has_value();
   if (result.absent) return result;
-  const Slopes s = slopes(box);
+  result.slopes = slopes(box);
+  const Slopes& s = result.slopes;
   if (!s.smooth) return result;
-  result.graph_axis = graph_axis(s);
   Point<2> low = box.center(), high = low;
   double spread = 0;
   for (int i = 0; i < 2; ++i) {

@@ -18,6 +18,13 @@ class CurveBounds {
  public:
   explicit CurveBounds(const Function<2>& function);
 
+  /// Bounds on the partial derivatives; they claim nothing unless f is proved to be continuously
+  /// differentiable on the box.
+  struct Slopes {
+    std::array<Interval, 2> slope;
+    bool smooth = false;
+  };
+
   /// What is known of f on a box.
   struct Look {
     bool absent = false;  ///< proved: f is zero nowhere on the box
@@ -25,20 +32,14 @@ class CurveBounds {
     std::optional<Sign> sign;
     bool continuous = false;  ///< proved: f has a value everywhere on the box and is continuous
     bool changes = false;     ///< proved: f is zero somewhere on the box
-    int graph_axis = -1;      ///< of the slopes on the box, unless it is absent
+    Slopes slopes;            ///< on the box, unless it is proved to be absent without them
   };
   Look look(const Box<2>& box);
 
+  Slopes slopes(const Box<2>& box);
+
   /// The sign f is proved to have at a point where it has a value.
   std::optional<Sign> sign_at(const Point<2>& point);
-
-  /// Bounds on the partial derivatives; they claim nothing unless f is proved to be continuously
-  /// differentiable on the box.
-  struct Slopes {
-    std::array<Interval, 2> slope;
-    bool smooth = false;
-  };
-  Slopes slopes(const Box<2>& box);
 
   Interval value_at(const Point<2>& point);
 

@@ -6,14 +6,18 @@
 namespace encase {
 namespace {
 
-constexpr int kMostPieces = 400;
-constexpr int kNewtonSteps = 4;
+constexpr int kMostPieces = 100;
+constexpr int kNewtonSteps = 2;
+constexpr double kFine = 0x1p-8;  ///< one step that gains so much will do
+// Pieces below this part of the segment on which f is not smooth will not do.
+constexpr double kRough = 0x1p-8;
 // Not one half: symmetric curves like to pass the middle.
 constexpr double kCut = 0.4871;
 
 /// Shrinks a piece on which f is strictly monotone and changes its sign by Newton's method; its
 /// ends stay proved not to be zeros.
-void shrink(CurveBounds& curve, int axis, const Interval& slope, Sign at_lo, Box<2>* piece) {
+void shrink(CurveBounds& curve, int axis, const Interval& slope, Box<2>* piece) {
+  const Sign at_lo = slope.lo > 0 ? Sign::Negative : Sign::Positive;
   for (int step = 0; step < kNewtonSteps; ++step) {
     const double lo = piece->lo[axis], hi = piece->hi[axis], width = hi - lo;
     Point<2> middle = piece->center();
@@ -29,7 +33,7 @@ void shrink(CurveBounds& curve, int axis, const Interval& slope, Sign at_lo, Box
       middle[axis] = above;
       if (curve.sign_at(middle) == -at_lo) piece->hi[axis] = above, gained = true;
     }
-    if (!gained || piece->width(axis) > 0.5 * width) return;
+    if (!gained || piece->width(axis) > 0.5 * width || piece->width(axis) < kFine * width) return;
   }
 }
 
@@ -41,17 +45,18 @@ std::optional<std::vector<Box<2>>> side_roots(CurveBounds& curve, const Box<2>& 
     if (pieces == kMostPieces) return std::nullopt;
     Box<2> piece = stack.back();
     stack.pop_back();
-    if (curve.look(piece).absent) continue;
-    const CurveBounds::Slopes slopes = curve.slopes(piece);
-    const Interval slope = slopes.slope[static_cast<std::size_t>(axis)];
-    if (slopes.smooth && (slope.lo > 0 || slope.hi < 0)) {
-      const std::optional<Sign> at_lo = curve.sign_at(piece.lo), at_hi = curve.sign_at(piece.hi);
-      if (!at_lo || !at_hi) return std::nullopt;
-      if (*at_lo == *at_hi) continue;
-      shrink(curve, axis, slope, *at_lo, &piece);
+    const CurveBounds::Look look = curve.look(piece);
+    if (look.absent) continue;
+    const Interval slope = look.slopes.slope[static_cast<std::size_t>(axis)];
+    const bool smooth = look.slopes.smooth;
+    if (smooth && (slope.lo > 0 || slope.hi < 0)) {
+      // Monotone: what was looked at are the values at both ends.
+      if (!look.changes) return std::nullopt;
+      shrink(curve, axis, slope, &piece);
       roots.push_back(piece);
       continue;
     }
+    if (!smooth && piece.width(axis) < kRough * segment.width(axis)) return std::nullopt;
     Box<2> upper = piece;
     const double cut = piece.lo[axis] + kCut * piece.width(axis);
     if (!(piece.lo[axis] < cut && cut < piece.hi[axis])) return std::nullopt;

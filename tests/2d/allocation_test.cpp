@@ -8,7 +8,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <vector>
 
+#include "2d/caps_tree.hpp"
 #include "2d/critical_regions.hpp"
 #include "2d/encaser.hpp"
 #include "common/isolate_roots.hpp"
@@ -46,6 +48,21 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { rel
 
 namespace encase {
 namespace {
+
+TEST(Allocations, OfTheQuadtreeOfCapsDoNotGrowWithItsBoxes) {
+  RandomOptions random;
+  random.degree = 4;
+  random.count = 3;
+  std::vector<CurveBounds> curves;
+  for (const NamedCurve& curve : random_curves(random)) curves.emplace_back(curve.function);
+  CapsOptions options;
+  options.self_crossings = true;
+  const long before = allocations;
+  const CapsTree tree = subdivide(curves, {{-1, -1}, {1, 1}}, options, {});
+  EXPECT_GT(tree.nodes.size(), 2000U);
+  // Lists that double, and the sets of curves.
+  EXPECT_LT(allocations - before, 200);
+}
 
 TEST(Allocations, OfSplittingAreBoundedByWhatItKeeps) {
   for (const int degree : {6, 10, 14}) {

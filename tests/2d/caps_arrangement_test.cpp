@@ -95,9 +95,9 @@ bool agree(const std::vector<NamedCurve>& curves, const Region& region) {
   const CapsResult result = caps(curves, region, options).value();
   EXPECT_EQ(result.answer, CapsClass::Exact);
   if (result.answer != CapsClass::Exact) return false;
-  const std::size_t inner = std::count_if(
-      arrangement.vertices.begin(), arrangement.vertices.end(),
-      [](const auto& v) { return v.kind != Arrangement::Vertex::Kind::Corner; });
+  const std::size_t inner =
+      std::count_if(arrangement.vertices.begin(), arrangement.vertices.end(),
+                    [](const auto& v) { return v.kind != Arrangement::Vertex::Kind::Corner; });
   EXPECT_EQ(result.vertices.size(), inner);
   EXPECT_EQ(edges_of(result), edges_of(result, encasement, arrangement));
   return true;

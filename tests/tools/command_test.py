@@ -92,7 +92,7 @@ class Usage(CommandTest):
     def test_help_names_every_subcommand_and_the_exit_codes(self):
         run = encase("--help")
         self.encased(run, 0)
-        for word in ("curves", "check", "random", "Exit codes"):
+        for word in ("curves", "caps", "check", "random", "Exit codes"):
             self.assertIn(word, run.stdout)
 
     def test_help_of_curves_names_every_option(self):
@@ -532,6 +532,64 @@ class Check(CommandTest):
 
     def test_missing_file(self):
         self.refused(encase("check", self.path("absent.json")), 2, "absent.json")
+
+
+class Caps(CommandTest):
+    LINES = ("-e", "a: x - y", "-e", "b: x + y - 1", "--region", "-1 2 -1 2")
+
+    def test_is_exact_for_lines(self):
+        run = encase("caps", *self.LINES, "-v")
+        self.encased(run, 0)
+        for word in ("exact", "crossing", "a & b", "boundary", "quadtree"):
+            self.assertIn(word, run.stdout)
+
+    def test_writes_every_file(self):
+        out = {kind: self.path("r." + kind) for kind in ("json", "svg")}
+        run = encase("caps", *self.LINES, "--json", out["json"], "--svg", out["svg"], "-q")
+        self.encased(run, 0)
+        self.assertEqual(run.stdout, "")
+        with open(out["json"]) as file:
+            result = json.load(file)
+        self.assertEqual((result["command"], result["status"]), ("caps", "exact"))
+        with open(out["svg"]) as file:
+            self.assertIn("</svg>", file.read())
+        self.refused(encase("check", out["json"]), 1, "'curves' only")
+        self.assertEqual(encase("caps", *self.LINES, "--json", "-").stdout,
+                         open(out["json"]).read())
+
+    def test_summary_and_exit_codes(self):
+        run = encase("caps", *self.LINES, "--summary")
+        self.encased(run, 0)
+        summary = json.loads(run.stdout)
+        self.assertEqual((summary["crossings"], summary["edges"]), (1, 4))
+        self.assertEqual(set(summary["leaves"]),
+                         {"empty", "one_curve", "several", "indeterminate"})
+        touching = encase("caps", "-e", "x^2 + y^2 = 1", "-e", "x = 1", "--region", "-2 2 -2 2",
+                          "--self-crossings", "--epsilon", "1e-3")
+        self.encased(touching, 3)
+        self.assertIn("delta-weak, delta 0.002", touching.stdout)
+        few = encase("caps", *self.LINES, "--max-boxes", "50", "--summary")
+        self.encased(few, 4)
+        self.assertEqual(json.loads(few.stdout)["status"], "undecided")
+
+    def test_refuses_what_it_cannot_do(self):
+        for epsilon, text in (("0", "positive"), ("-1", "positive"), ("nan", "positive"),
+                              ("5", "larger than the region")):
+            self.refused(encase("caps", *self.LINES, "--epsilon", epsilon), 1, text)
+        lines = self.LINES[:4]
+        self.refused(encase("caps", *lines), 1, "no region")
+        self.refused(encase("caps", *lines, "--region", "plane"), 1, "rectangle")
+        self.refused(encase("caps", *lines, "--region", "polygon (0,0) (1,0) (0,1)"), 1,
+                     "rectangle")
+        self.refused(encase("caps"), 1, "FILE")
+        self.refused(encase("caps", *self.LINES, "--json", "-", "--summary"), 1, "standard output")
+        self.refused(encase("caps", *self.LINES, "--svg", "/nowhere/r.svg"), 2, "nowhere")
+
+    def test_answers_what_has_poles(self):
+        run = encase("caps", "-e", "y = sin(1/x)", "-e", "y = 1/x - 2", "--region", "-3 3 -3 3",
+                     "--epsilon", "1e-3", "--self-crossings", "--summary")
+        self.encased(run, 3)
+        self.assertGreater(json.loads(run.stdout)["crossings"], 0)
 
 
 class Random(CommandTest):

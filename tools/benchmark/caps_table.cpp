@@ -61,9 +61,9 @@ Table caps_table(const Request& request) {
       });
       table.add({published.name, self_crossings ? "too" : "no", to_string(result.answer),
                  result.nodes, std::int64_t{published.nodes},
-                 static_cast<double>(result.nodes) / published.nodes,
-                 1e3 * median(tree_seconds), 1e3 * seconds, 1e3 * published.seconds,
-                 published.seconds / seconds, static_cast<std::int64_t>(result.vertices.size()),
+                 static_cast<double>(result.nodes) / published.nodes, 1e3 * median(tree_seconds),
+                 1e3 * seconds, 1e3 * published.seconds, published.seconds / seconds,
+                 static_cast<std::int64_t>(result.vertices.size()),
                  static_cast<std::int64_t>(result.edges.size())});
     }
   }
