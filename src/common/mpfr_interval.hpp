@@ -14,6 +14,8 @@ namespace encase {
 /// and its upper bound up. Results take the precision of the left operand.
 class MpfrInterval {
  public:
+  /// [0, 0] of the least precision, to be assigned to.
+  MpfrInterval() : MpfrInterval(MPFR_PREC_MIN) {}
   explicit MpfrInterval(int bits) {
     mpfr_init2(lo_, bits);
     mpfr_init2(hi_, bits);
@@ -102,6 +104,9 @@ class MpfrInterval {
 
   mpfr_srcptr lo() const { return lo_; }
   mpfr_srcptr hi() const { return hi_; }
+  /// To be set rounding outward.
+  mpfr_ptr lo() { return lo_; }
+  mpfr_ptr hi() { return hi_; }
 
  private:
   mpfr_t lo_;
