@@ -59,7 +59,7 @@ inline std::vector<Scene> simple_scenes() {
 inline Scene cosines() {
   const Expression f = cos(c(5) * x()) + cos(c(7) * y()) - c(3, 10),
                    g = cos(c(8) * x() + c(1, 5)) + cos(c(6) * y() - c(1, 3)) + c(1, 7);
-  return scene("cosines", f, g, -2.4, 2.4);
+  return scene("cosines", f, g, -2.8, 2.8);
 }
 /// The zero sets are waves in both directions.
 inline Scene waves() {

@@ -253,7 +253,8 @@ struct EncaseOptions {
 };
 
 /// Encases the curves in the region. BadInput for a zero or constant polynomial or a degree above
-/// kMaxDegree; every other input gets an answer, of the three kinds of `Outcome`. Deterministic.
+/// kMaxDegree, for an expression without x and y, or one in the whole plane or to be perturbed;
+/// every other input gets an answer, of the three kinds of `Outcome`. Deterministic.
 /// Cost grows with the number of crossings and loops; see docs/encasement.md.
 Result<Encasement> encase(const std::vector<NamedCurve>& curves, const Region& region,
                           const EncaseOptions& options = {});

@@ -158,9 +158,9 @@ TEST(Analytic, PolesAndEdgesOfDomainsStayInTheirPlaces) {
   expect_gaps(scene("pole", c(1) / x() - y(), kLine, -2, 2), 0.1, 0);
   expect_gaps(scene("poles", of(Operation::Tan, x()) - y(), kLine, -4, 4), 0.2, 1);
   expect_gaps(scene("cone", of(Operation::Sqrt, x().power(2) + y().power(2)) - c(1), kLine, -2, 2),
-              1e-9, 2);
+              1e-7, 2);
   expect_gaps(scene("isolated pole", c(1) - c(1) / (x().power(2) + y().power(2)), kLine, -2, 2),
-              1e-9, 2);
+              1e-7, 2);
   expect_gaps(
       scene("diamond", of(Operation::Abs, x()) + of(Operation::Abs, y()) - c(1), kLine, -2, 2), 0.1,
       2);
