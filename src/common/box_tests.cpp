@@ -317,9 +317,12 @@ std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box,
       sign = here;
       continue;
     }
+    // Across the axis along which f changes most, or the longest one.
+    const bool known = std::isfinite(net.radius);
     int axis = 0;
     for (int i = 1; i < D; ++i)
-      if (part.width(i) > part.width(axis)) axis = i;
+      if (known ? variation(net, i) > variation(net, axis) : part.width(i) > part.width(axis))
+        axis = i;
     const double middle = part.center()[axis];
     if (visited == kMostParts || !drowned(net) || !(part.lo[axis] < middle) ||
         !(middle < part.hi[axis]))

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "analytic_scenes.hpp"
+#include "common/filtered_function.hpp"
 #include "encased.hpp"
 #include "high_precision.hpp"
 
