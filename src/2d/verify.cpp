@@ -284,8 +284,7 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options) 
   // Index errors and the like first, so that everything below may follow indices freely.
   if (!check_structure(claims)) return claims.report;
   claims.curves.reserve(encasement.curves.size());
-  for (const Curve& curve : encasement.curves)
-    claims.curves.emplace_back(curve.function);
+  for (const Curve& curve : encasement.curves) claims.curves.emplace_back(curve.function);
 
   // The cheap statements that everything refers to.
   check_outcome(claims);
