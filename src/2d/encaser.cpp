@@ -646,8 +646,10 @@ void Encaser::collect_zones() {
     if (entry.kind != Unresolved::Kind::NotAnalytic) continue;
     Zone zone{entry.box, entry.box, true};
     for (int i = 0; i < 2; ++i) {
+      const bool tiny = entry.box.largest_width() < 0x1p-8 * diameter;
       const double margin =
-          0x1p-8 * diameter + 0.5 * std::min(entry.box.width(0), entry.box.width(1));
+          tiny ? 0x1p-6 * diameter
+               : 0x1p-8 * diameter + 0.5 * std::min(entry.box.width(0), entry.box.width(1));
       zone.clearance.lo[i] -= margin;
       zone.clearance.hi[i] += 1.07 * margin;
     }

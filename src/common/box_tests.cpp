@@ -298,6 +298,23 @@ std::optional<Sign> sign_by_net(const FilteredFunction<D>& f, const Box<D>& box,
   return sign;
 }
 
+/// Whether no two of the signs that are proved at the corners, and the one known, are different;
+/// notes the sign.
+template <int D>
+bool corners_agree(const Bernstein<D>& net, std::optional<Sign>* sign) {
+  for (int corner = 0; corner < 1 << D; ++corner) {
+    std::size_t at = 0;
+    for (int i = 0; i < D; ++i)
+      at = at * static_cast<std::size_t>(net.degree[i] + 1) +
+           static_cast<std::size_t>((corner >> i) % 2 ? net.degree[i] : 0);
+    if (!(std::fabs(net.b[at]) > net.radius)) continue;
+    const Sign here = net.b[at] > 0 ? Sign::Positive : Sign::Negative;
+    if (*sign && **sign != here) return false;
+    *sign = here;
+  }
+  return true;
+}
+
 }  // namespace
 
 template <int D>
@@ -317,11 +334,14 @@ std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box,
       sign = here;
       continue;
     }
+    // Across the axis along which f changes most, or the longest one.
+    const bool known = std::isfinite(net.radius);
     int axis = 0;
     for (int i = 1; i < D; ++i)
-      if (part.width(i) > part.width(axis)) axis = i;
+      if (known ? variation(net, i) > variation(net, axis) : part.width(i) > part.width(axis))
+        axis = i;
     const double middle = part.center()[axis];
-    if (visited == kMostParts || !drowned(net) || !(part.lo[axis] < middle) ||
+    if (visited == kMostParts || !corners_agree(net, &sign) || !(part.lo[axis] < middle) ||
         !(middle < part.hi[axis]))
       return std::nullopt;
     parts.insert(parts.end(), {part, part});

@@ -54,7 +54,7 @@ class FilteredFunction {
   /// the plane an expression's lacks terms, which precision does not bring back.
   template <int K>
   bool precision_helps(const Bernstein<K>& net) const {
-    return is_polynomial() || net.radius < 0x1p-32 * largest_coefficient(net);
+    return is_polynomial() || net.radius < 0x1p-32 * (1 + largest_coefficient(net));
   }
   using Value = typename FilteredPolynomial<D>::Value;
   Value evaluate(const Point<D>& point, int bits) const {

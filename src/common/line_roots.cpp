@@ -447,6 +447,8 @@ class PathSearch {
       }
       if (!settle(piece, level)) return false;
       from = piece.hi;
+      // Beyond a place that is hard for an expression.
+      if (!f_.polynomial().is_polynomial()) step *= 2;
     }
     return true;
   }

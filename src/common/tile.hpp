@@ -81,9 +81,10 @@ class TiledFunction {
   void take_gaps_of(const TiledFunction& outer) { gaps_ = outer.gaps_; }
   /// Whether tiles lack nothing of f but roundings: it is a polynomial of a low degree.
   bool fits_tiles() const { return !expression_ && f_->degree() <= Tile::kMaxDegree; }
-  /// Whether a smaller tile, and not a more precise one, would be closer to f.
+  /// Whether a smaller tile, and not a more precise one, would be closer to f, as far as the size
+  /// of the error tells: roundings are those of numbers of about the size 1, or of the values.
   bool wants_smaller(const Tile& tile) const {
-    return expression_ && !(tile.error < 0x1p-32 * tile.sum);
+    return expression_ && !(tile.error < 0x1p-32 * (tile.sum < 1 ? 1 : tile.sum));
   }
 
   /// The tile whose rectangle holds the point (one of them on borders; the nearest for a point

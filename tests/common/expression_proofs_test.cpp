@@ -105,7 +105,7 @@ TEST(Gaps, AreWhereTheFunctionIsNotAnalytic) {
   const auto strip = gaps(c(1) / x());
   ASSERT_EQ(strip.size(), 1u);
   EXPECT_LT(strip[0].width(0), 0.05);
-  EXPECT_TRUE(strip[0].contains({0, 0.5}));
+  EXPECT_TRUE(strip[0].contains(Point<2>{0, 0.5}));
   for (const Box<2>& box : gaps(of(Operation::Sqrt, x().power(2) + y().power(2))))
     EXPECT_LT(box.largest_width(), 1e-7);
   const auto chain = gaps(of(Operation::Abs, x() - y()));
@@ -114,7 +114,7 @@ TEST(Gaps, AreWhereTheFunctionIsNotAnalytic) {
     EXPECT_TRUE(std::any_of(chain.begin(), chain.end(),
                             [&](const Box<2>& box) { return box.contains(at); }));
   }
-  for (const Box<2>& box : chain) EXPECT_LT(box.largest_width(), 0.1);
+  for (const Box<2>& box : chain) EXPECT_LT(box.largest_width(), 0.25);
   EXPECT_LE(gathered(chain, root).size(), 60u);
   // No value at all.
   EXPECT_EQ(gaps(of(Operation::Sqrt, -c(1) - x().power(2))).size(), 1u);
