@@ -118,10 +118,17 @@ bool coarse(const Bernstein<D>& net) {
   return !(net.radius < 0x1p-46 * largest_coefficient(net));
 }
 
+/// Whether the net of an expression lacks little but what roundings take: near zeros of a function
+/// of usual size they are small, but not beside its values.
+template <int D>
+bool may_gain(const FilteredFunction<D>& f, const Bernstein<D>& net) {
+  return f.precision_helps(net) || net.radius < 0x1p-32;
+}
+
 template <int D>
 bool may_gain(const System<D>& system, const SystemNets<D>& nets) {
   for (int i = 0; i < D; ++i)
-    if (coarse(nets[i]) && system[i]->precision_helps(nets[i])) return true;
+    if (coarse(nets[i]) && may_gain(*system[i], nets[i])) return true;
   return false;
 }
 
@@ -294,7 +301,7 @@ std::optional<Sign> sign_by_net(const FilteredFunction<D>& f, const Box<D>& box,
         sign = sign_on_cube(net);
         return sign.has_value();
       },
-      [&] { return drowned(net) && f.precision_helps(net); });
+      [&] { return drowned(net) && may_gain(f, net); });
   return sign;
 }
 
@@ -304,14 +311,18 @@ template <int D>
 std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box, Kernel& kernel) {
   thread_local Bernstein<D> net;
   if (f.is_polynomial()) return sign_by_net(f, box, kernel, &net);
-  // Of an expression on a smaller box nets tell more.
-  constexpr int kMostParts = 256;
+  // Of an expression on a smaller box nets tell more. (Where it is not analytic none ever will.)
+  constexpr int kMostHalvings = 8;
+  struct Part {
+    Box<D> box;
+    int halvings = 0;
+  };
   std::optional<Sign> sign;
-  std::vector<Box<D>> parts{box};
-  for (int visited = 0; !parts.empty(); ++visited) {
-    const Box<D> part = parts.back();
+  std::vector<Part> parts{{box}};
+  while (!parts.empty()) {
+    const Part part = parts.back();
     parts.pop_back();
-    const auto here = sign_by_net(f, part, kernel, &net);
+    const auto here = sign_by_net(f, part.box, kernel, &net);
     if (here && sign && *here != *sign) return std::nullopt;
     if (here) {
       sign = here;
@@ -319,13 +330,15 @@ std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box,
     }
     int axis = 0;
     for (int i = 1; i < D; ++i)
-      if (part.width(i) > part.width(axis)) axis = i;
-    const double middle = part.center()[axis];
-    if (visited == kMostParts || !drowned(net) || !(part.lo[axis] < middle) ||
-        !(middle < part.hi[axis]))
+      if (part.box.width(i) > part.box.width(axis)) axis = i;
+    const double middle = part.box.center()[axis];
+    if (part.halvings == kMostHalvings || !drowned(net) || !(part.box.lo[axis] < middle) ||
+        !(middle < part.box.hi[axis]))
       return std::nullopt;
-    parts.insert(parts.end(), {part, part});
-    parts[parts.size() - 2].lo[axis] = parts.back().hi[axis] = middle;
+    for (const bool upper : {true, false}) {
+      parts.push_back({part.box, part.halvings + 1});
+      (upper ? parts.back().box.lo : parts.back().box.hi)[axis] = middle;
+    }
   }
   return sign;
 }
@@ -343,7 +356,8 @@ bool at_most_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
   SystemNets<D> nets;
   return climb(
       kernel, [&](int bits) { return expand_system<D>(system, box, bits, kernel, &nets); },
-      [&] { return contraction<D>(nets).has_value(); }, [&] { return may_gain<D>(system, nets); });
+      [&] { return contraction<D>(nets).has_value(); },
+      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
 }
 
 template <int D>
@@ -389,7 +403,7 @@ bool exactly_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
         }
         return true;
       },
-      [&] { return may_gain<D>(system, nets); });
+      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
 }
 
 bool no_relevant_critical_point(const FilteredFunction<2>& f, const Box<2>& box, Kernel& kernel) {
@@ -401,7 +415,7 @@ bool no_relevant_critical_point(const FilteredFunction<2>& f, const Box<2>& box,
         return net.radius;
       },
       [&] { return no_relevant_critical_point(net, Effort::Thorough); },
-      [&] { return coarse(net) && f.precision_helps(net); });
+      [&] { return coarse(net) && may_gain(f, net); });
 }
 
 #define ENCASE_INSTANTIATE(D)                                                                   \
