@@ -8,8 +8,7 @@
 namespace encase {
 
 CellSigns::CellSigns(const Encasement& encasement) : encasement_(encasement) {
-  for (const Curve& curve : encasement.curves)
-    polynomials_.emplace_back(curve.function);
+  for (const Curve& curve : encasement.curves) polynomials_.emplace_back(curve.function);
 }
 
 std::vector<int> CellSigns::of(const Cell& cell) {

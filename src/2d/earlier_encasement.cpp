@@ -33,8 +33,7 @@ void EarlierEncasement::match(const std::vector<Curve>& curves, const Region& re
   if (!from_ || from_->region_used.corners != region_used.corners) return;
   const std::size_t count = std::min(curves.size(), from_->curves.size());
   std::vector<char> same(from_->curves.size(), false);
-  for (std::size_t c = 0; c < count; ++c)
-    same[c] = curves[c].function == from_->curves[c].function;
+  for (std::size_t c = 0; c < count; ++c) same[c] = curves[c].function == from_->curves[c].function;
   for (std::size_t k = 0; k < from_->crossing_covers.size(); ++k) {
     const CrossingCover& cover = from_->crossing_covers[k];
     if (same[cover.curves[0]] && same[cover.curves[1]] && settles(cover.tokens))
