@@ -14,6 +14,8 @@ namespace {
 
 /// Into how many parts a leaf may be cut to prove what does not show on the whole of it.
 constexpr int kLeafParts = 2000;
+/// And how often the parts may be halved: at a pole it would go on and on.
+constexpr int kLeafDepth = 40;
 
 /// Halves a closed box at the double next to its middle: two closed boxes whose union it is. False
 /// if there is no double in between.
@@ -28,8 +30,8 @@ bool halves(const Box<2>& box, std::size_t axis, Box<2>* lower, Box<2>* upper) {
 /// Whether `proves` holds on every part of some subdivision of a box on which it does not. Uses up
 /// `parts`.
 template <class Proves>
-bool by_halves(const Box<2>& box, int* parts, const Proves& proves) {
-  if (--*parts < 0) return false;
+bool by_halves(const Box<2>& box, int depth, int* parts, const Proves& proves) {
+  if (--*parts < 0 || depth == kLeafDepth) return false;
   // Across the longer side, unless only the other way gets somewhere.
   std::size_t axis = box.width(1) > box.width(0) ? 1 : 0;
   std::array<Box<2>, 2> half;
@@ -40,14 +42,14 @@ bool by_halves(const Box<2>& box, int* parts, const Proves& proves) {
     proved = {proves(half[0]), proves(half[1])};
   }
   if (!proved[0] && !proved[1]) halves(box, 1 - axis, &half[0], &half[1]);
-  return (proved[0] || by_halves(half[0], parts, proves)) &&
-         (proved[1] || by_halves(half[1], parts, proves));
+  return (proved[0] || by_halves(half[0], depth + 1, parts, proves)) &&
+         (proved[1] || by_halves(half[1], depth + 1, parts, proves));
 }
 
 template <class Proves>
 bool by_parts(const Box<2>& box, const Proves& proves) {
   int parts = kLeafParts;
-  return proves(box) || by_halves(box, &parts, proves);
+  return proves(box) || by_halves(box, 0, &parts, proves);
 }
 
 bool contains_region(const Box<2>& box, const Region& region) {

@@ -88,29 +88,56 @@ class Replay {
     return static_cast<int>(partition_.segments.size()) - 1;
   }
 
-  /// Every line crossing is a simple root. On a segment that bounds a certified cell there are no
-  /// other zeros, from the far end of one corner's enclosure to that of the other's: the list is
-  /// complete, and no curve passes through a corner. Cells that are not certified claim no more
-  /// than what they list.
+  /// Every line crossing is a simple root. On an edge of a certified cell there are no other zeros,
+  /// from the far end of one corner's enclosure to that of the other's: the list is complete, and
+  /// no curve passes through a corner. Cells that are not certified claim no more than what they
+  /// list.
   void check_segments() {
-    std::vector<bool> complete(partition_.segments.size(), false);
+    std::vector<std::vector<Interval>> complete(partition_.segments.size());
     for (std::size_t i = 0; i < e_.cells.size(); ++i)
-      if (certified(e_.cells[i]))
-        for (const Edge& edge : partition_.cells[i])
-          complete[static_cast<std::size_t>(edge.segment)] = true;
+      if (certified(e_.cells[i])) add_edges(partition_.cells[i], &complete);
     for_each(claims_, partition_.segments.size(), [&](Claims& part, std::size_t s) {
-      for (int curve : curves_on_segment(part, partition_.segments[s], complete[s])) {
+      const std::vector<Interval> parts = united(std::move(complete[s]));
+      for (int curve : curves_on_segment(part, partition_.segments[s], parts)) {
         if (part.full()) break;
-        check_curve_on_segment(part, curve, partition_.segments[s], complete[s]);
+        check_curve_on_segment(part, curve, partition_.segments[s], parts);
       }
     });
   }
 
+  /// Adds where the edges of a polygon lie on their segments.
+  void add_edges(const Polygon& polygon, std::vector<std::vector<Interval>>* on_segments) const {
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Edge& edge = polygon[k];
+      const auto axis = static_cast<std::size_t>(parameter_axis(line(edge.line)));
+      const Interval a = edge.start[axis], b = polygon[(k + 1) % polygon.size()].start[axis];
+      (*on_segments)[static_cast<std::size_t>(edge.segment)].push_back(
+          {std::fmin(a.lo, b.lo), std::fmax(a.hi, b.hi)});
+    }
+  }
+
+  /// The union of intervals as disjoint ones, in order.
+  static std::vector<Interval> united(std::vector<Interval> intervals) {
+    std::sort(intervals.begin(), intervals.end(), [](const Interval& a, const Interval& b) {
+      return std::pair(a.lo, a.hi) < std::pair(b.lo, b.hi);
+    });
+    std::vector<Interval> result;
+    for (const Interval& next : intervals) {
+      if (result.empty() || next.lo > result.back().hi)
+        result.push_back(next);
+      else
+        result.back().hi = std::fmax(result.back().hi, next.hi);
+    }
+    return result;
+  }
+
   /// The curves about which a segment claims something that the shared cover does not prove.
-  std::vector<int> curves_on_segment(Claims& part, const Segment& segment, bool complete) {
+  std::vector<int> curves_on_segment(Claims& part, const Segment& segment,
+                                     const std::vector<Interval>& complete) {
     std::vector<int> curves;
-    if (complete) {
-      const auto point = point_on_line(line(segment.line), Interval(segment.lo, segment.hi));
+    if (!complete.empty()) {
+      const auto point =
+          point_on_line(line(segment.line), Interval(complete.front().lo, complete.back().hi));
       curves = curves_near(part, line(segment.line),
                            {{point[0].lo, point[1].lo}, {point[0].hi, point[1].hi}});
     }
@@ -120,9 +147,10 @@ class Replay {
     return curves;
   }
 
-  void check_curve_on_segment(Claims& part, int curve, const Segment& segment, bool complete) {
+  void check_curve_on_segment(Claims& part, int curve, const Segment& segment,
+                              const std::vector<Interval>& complete) {
     const auto& f = part.curves[static_cast<std::size_t>(curve)];
-    const LineCrossing* previous = nullptr;
+    std::vector<const LineCrossing*> its;
     for (int id : segment.crossings) {
       const LineCrossing& c = crossing(id);
       if (c.curve != curve) continue;
@@ -130,19 +158,26 @@ class Replay {
           one_root_on_line(f, line(segment.line), c.lo, c.hi, part.kernel), "Line crossing ", id,
           " is not proved to be one simple root of curve ", curve, " on line ", segment.line, ".");
       if (!proved) return;
-      if (complete) check_gap(part, curve, segment, previous, &c);
-      previous = &c;
+      its.push_back(&c);
     }
-    if (complete) check_gap(part, curve, segment, previous, nullptr);
+    for (const Interval& reach : complete) {
+      const LineCrossing* previous = nullptr;
+      for (const LineCrossing* c : its) {
+        if (c->hi <= reach.lo || c->lo >= reach.hi) continue;
+        check_gap(part, curve, segment.line, reach, previous, c);
+        previous = c;
+      }
+      check_gap(part, curve, segment.line, reach, previous, nullptr);
+    }
   }
 
-  /// Proves that a curve has no zero between two successive crossings with a segment's line, or
-  /// between one and an end.
-  void check_gap(Claims& part, int curve, const Segment& segment, const LineCrossing* before,
-                 const LineCrossing* after) {
+  /// Proves that a curve has no zero between two successive crossings with a line, or between one
+  /// and an end of the part `reach` of the line.
+  void check_gap(Claims& part, int curve, int line_id, const Interval& reach,
+                 const LineCrossing* before, const LineCrossing* after) {
     const auto& f = part.curves[static_cast<std::size_t>(curve)];
-    const Line& l = line(segment.line);
-    double lo = before ? before->hi : segment.lo, hi = after ? after->lo : segment.hi;
+    const Line& l = line(line_id);
+    double lo = before ? before->hi : reach.lo, hi = after ? after->lo : reach.hi;
     // The corner's enclosure reaches into the interval, which has been objected to.
     if (lo > hi) return;
     bool proved = no_root_on_line(f, l, lo, hi, part.kernel);
@@ -162,7 +197,7 @@ class Replay {
       break;
     }
     part.require(proved || no_root_on_line(f, l, lo, hi, part.kernel), "Curve ", curve,
-                 " is not proved absent from line ", segment.line, " between its crossings there.");
+                 " is not proved absent from line ", line_id, " between its crossings there.");
   }
 
   /// How many of an edge's crossings, counted in its segment's order, lie before a corner on it.

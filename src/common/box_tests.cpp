@@ -118,10 +118,17 @@ bool coarse(const Bernstein<D>& net) {
   return !(net.radius < 0x1p-46 * largest_coefficient(net));
 }
 
+/// Whether the net of an expression lacks little but what roundings take: near zeros of a function
+/// of usual size they are small, but not beside its values.
+template <int D>
+bool may_gain(const FilteredFunction<D>& f, const Bernstein<D>& net) {
+  return f.precision_helps(net) || net.radius < 0x1p-32;
+}
+
 template <int D>
 bool may_gain(const System<D>& system, const SystemNets<D>& nets) {
   for (int i = 0; i < D; ++i)
-    if (coarse(nets[i]) && system[i]->precision_helps(nets[i])) return true;
+    if (coarse(nets[i]) && may_gain(*system[i], nets[i])) return true;
   return false;
 }
 
@@ -294,7 +301,7 @@ std::optional<Sign> sign_by_net(const FilteredFunction<D>& f, const Box<D>& box,
         sign = sign_on_cube(net);
         return sign.has_value();
       },
-      [&] { return drowned(net) && f.precision_helps(net); });
+      [&] { return drowned(net) && may_gain(f, net); });
   return sign;
 }
 
@@ -363,7 +370,8 @@ bool at_most_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
   SystemNets<D> nets;
   return climb(
       kernel, [&](int bits) { return expand_system<D>(system, box, bits, kernel, &nets); },
-      [&] { return contraction<D>(nets).has_value(); }, [&] { return may_gain<D>(system, nets); });
+      [&] { return contraction<D>(nets).has_value(); },
+      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
 }
 
 template <int D>
@@ -409,7 +417,7 @@ bool exactly_one_zero(const System<D>& system, const Box<D>& box, Kernel& kernel
         }
         return true;
       },
-      [&] { return may_gain<D>(system, nets); });
+      [&] { return std::any_of(nets.begin(), nets.end(), coarse<D>); });
 }
 
 bool no_relevant_critical_point(const FilteredFunction<2>& f, const Box<2>& box, Kernel& kernel) {
@@ -421,7 +429,7 @@ bool no_relevant_critical_point(const FilteredFunction<2>& f, const Box<2>& box,
         return net.radius;
       },
       [&] { return no_relevant_critical_point(net, Effort::Thorough); },
-      [&] { return coarse(net) && f.precision_helps(net); });
+      [&] { return coarse(net) && may_gain(f, net); });
 }
 
 #define ENCASE_INSTANTIATE(D)                                                                   \

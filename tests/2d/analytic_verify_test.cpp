@@ -101,7 +101,7 @@ void expect_traces(const Encasement& e, const Arrangement& a) {
     for (const Point<2>& p : tracing.edges[k].points) {
       const auto jet = program.value_and_gradient(intervals<2>(Box<2>{p, p}), workspace).jet;
       const double slope = std::hypot(jet.first(0).mid(), jet.first(1).mid());
-      EXPECT_LE(std::fabs(jet.value().mid()), 1e-9 * (1 + slope));
+      EXPECT_LE(std::fabs(jet.value().mid()), 1e-8 * (1 + slope));
     }
   }
 }
