@@ -25,7 +25,7 @@ struct Open {
 /// Where a box is cut in four.
 Point<2> cut_of(const Box<2>& box) {
   Point<2> cut;
-  for (int i = 0; i < 2; ++i) cut[i] = box.lo[i] + kCapsCut * (box.hi[i] - box.lo[i]);
+  for (int i = 0; i < 2; ++i) cut[i] = box.lo[i] + kCapsCut[i] * (box.hi[i] - box.lo[i]);
   return cut;
 }
 

@@ -70,7 +70,7 @@ void expect_quadtree(const CapsResult& r) {
     for (int k = 3; k >= 0; --k) {
       Box<2> part = box;
       for (int i = 0; i < 2; ++i) {
-        const double cut = box.lo[i] + kCapsCut * (box.hi[i] - box.lo[i]);
+        const double cut = box.lo[i] + kCapsCut[i] * (box.hi[i] - box.lo[i]);
         ((i == 0 ? k / 2 : k % 2) ? part.lo : part.hi)[i] = cut;
       }
       stack.push_back({part, depth + 1});
@@ -135,6 +135,16 @@ TEST(Caps, FindsTheCrossingsOfLines) {
     });
   };
   EXPECT_TRUE(at(0.8, 0.4) && at(2, 1) && at(-1, 1));
+}
+
+TEST(Caps, SymmetricCurvesAreInGeneralPosition) {
+  const CapsResult result =
+      run({"y - x", "y + x", "x^2 + y^2 - 4", "x", "y - 1"}, 1e-6, true,
+          encased::rectangle(-4, 4, -3, 3));
+  EXPECT_EQ(count(result, Kind::Several), 1);
+  EXPECT_EQ(count(result, Kind::Crossing), 11);
+  EXPECT_EQ(result.obstacles.open_vertices, 1);
+  EXPECT_EQ(result.obstacles.open_edges, 0);
 }
 
 TEST(Caps, TouchingCirclesAreInContact) {

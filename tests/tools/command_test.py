@@ -524,7 +524,7 @@ class Check(CommandTest):
 
 
 class Caps(CommandTest):
-    LINES = ("-e", "a: x - y", "-e", "b: x + y - 1", "--region", "-1 2 -1 2")
+    LINES = ("-e", "a: x - y", "-e", "b: x + y - 1", "--region", "-1 2 -2 3")
 
     def test_is_exact_for_lines(self):
         run = encase("caps", *self.LINES, "-v")
