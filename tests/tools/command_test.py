@@ -543,8 +543,8 @@ class Caps(CommandTest):
         with open(out["svg"]) as file:
             self.assertIn("</svg>", file.read())
         self.refused(encase("check", out["json"]), 1, "'curves' only")
-        self.assertEqual(encase("caps", *self.LINES, "--json", "-").stdout,
-                         open(out["json"]).read())
+        with open(out["json"]) as file:
+            self.assertEqual(encase("caps", *self.LINES, "--json", "-").stdout, file.read())
 
     def test_summary_and_exit_codes(self):
         run = encase("caps", *self.LINES, "--summary")
