@@ -273,11 +273,11 @@ TEST(Caps, PolylinesRunThroughLeavesOfTheirCurve) {
 
 TEST(Caps, IsUndecidedWhereABudgetRunsOut) {
   CapsOptions options;
-  options.max_boxes = 200;
+  options.max_boxes = 60;
   const CapsResult few =
       caps(written_curves({"x - y", "x + y - 1"}), encased::square(), options).value();
   EXPECT_EQ(few.answer, CapsClass::Undecided);
-  EXPECT_LE(few.nodes, 200);
+  EXPECT_LE(few.nodes, 60);
   EXPECT_GT(few.obstacles.indeterminate_leaves, 0);
   expect_quadtree(few);
   options = {};
