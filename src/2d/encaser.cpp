@@ -132,6 +132,8 @@ Status Encaser::check_input() const {
   if (!result_.region.plane && result_.region.corners.size() < 3)
     return bad("the region has fewer than three corners");
   for (const NamedCurve& curve : result_.input) {
+    if (!curve.function.is_polynomial() && result_.perturbation != 0)
+      return bad("curve '" + curve.name + "' is no polynomial: only those can be perturbed");
     if (!curve.function.is_polynomial())
       return bad("curve '" + curve.name + "' is not a polynomial; so far only those are encased");
     if (curve.function.polynomial().is_zero())

@@ -148,11 +148,15 @@ Interval positive_power(const Interval& a, long exponent) {
 }  // namespace
 
 Interval divide(const Interval& a, const Interval& b, Regularity& regularity) {
-  if (b.lo > 0 || b.hi < 0)
-    return {std::min(std::min(divide_down(a.lo, b.lo), divide_down(a.lo, b.hi)),
-                     std::min(divide_down(a.hi, b.lo), divide_down(a.hi, b.hi))),
-            std::max(std::max(divide_up(a.lo, b.lo), divide_up(a.lo, b.hi)),
-                     std::max(divide_up(a.hi, b.lo), divide_up(a.hi, b.hi)))};
+  if (b.lo > 0 || b.hi < 0) {
+    const double p = a.lo / b.lo, q = a.lo / b.hi, r = a.hi / b.lo, s = a.hi / b.hi;
+    const double lo = least(least(p, q), least(r, s)), hi = largest(largest(p, q), largest(r, s));
+    if (is_ordinary(lo, hi, p + q + r + s)) return {round_down(lo), round_up(hi)};
+    return {least(least(divide_down(a.lo, b.lo), divide_down(a.lo, b.hi)),
+                  least(divide_down(a.hi, b.lo), divide_down(a.hi, b.hi))),
+            largest(largest(divide_up(a.lo, b.lo), divide_up(a.lo, b.hi)),
+                    largest(divide_up(a.hi, b.lo), divide_up(a.hi, b.hi)))};
+  }
   if (b.lo == 0 && b.hi == 0) {
     limit(regularity, Regularity::Nowhere);
     return whole_line();

@@ -25,7 +25,7 @@ inline void limit(Regularity& regularity, Regularity bound) {
 /// at points of its operands; functions that do not have one everywhere limit `regularity` to what
 /// is proved, and return the whole line where it becomes Nowhere. Precision is that of the first
 /// operand. Enclosures of doubles are those of MPFR's correct rounding or wider by a few units in
-/// the last place (docs/error-bounds.md, section 11).
+/// the last place (docs/error-bounds.md, "Elementary functions in doubles").
 namespace elementary {
 
 inline Interval whole_line() {
@@ -69,15 +69,21 @@ inline Interval add(const Interval& a, const Interval& b) {
 }
 inline Interval subtract(const Interval& a, const Interval& b) { return add(a, negate(b)); }
 
+// Not std::min and std::max, which take references.
+inline double least(double a, double b) { return a < b ? a : b; }
+inline double largest(double a, double b) { return a > b ? a : b; }
+
+/// Whether four results of which `lo` and `hi` are the least and the largest are finite, and these
+/// two not zero: a NaN among them makes their sum one.
+inline bool is_ordinary(double lo, double hi, double sum) {
+  constexpr double kMax = std::numeric_limits<double>::max();
+  return lo != 0 && hi != 0 && -kMax <= lo && hi <= kMax && !std::isnan(sum);
+}
+
 inline Interval multiply(const Interval& a, const Interval& b) {
-  const auto least = [](double s, double t) { return s < t ? s : t; };
-  const auto largest = [](double s, double t) { return s > t ? s : t; };
   const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
   const double lo = least(least(p, q), least(r, s)), hi = largest(largest(p, q), largest(r, s));
-  constexpr double kMax = std::numeric_limits<double>::max();
-  // All four are finite then: a NaN among them would make their sum one.
-  if (lo != 0 && hi != 0 && -kMax <= lo && hi <= kMax && !std::isnan(p + q + r + s))
-    return {round_down(lo), round_up(hi)};
+  if (is_ordinary(lo, hi, p + q + r + s)) return {round_down(lo), round_up(hi)};
   return {least(least(multiply_down(a.lo, b.lo), multiply_down(a.lo, b.hi)),
                 least(multiply_down(a.hi, b.lo), multiply_down(a.hi, b.hi))),
           largest(largest(multiply_up(a.lo, b.lo), multiply_up(a.lo, b.hi)),

@@ -52,7 +52,7 @@ double random_argument(const Kernel& kernel, std::mt19937_64& generator) {
   const double t = static_cast<double>(generator() >> 11) * 0x1p-53;
   const double sign = generator() % 2 == 0 ? 1 : -1;
   double x = 0;
-  switch (generator() % 8) {
+  switch (generator() % 20) {
     case 0:
       x = sign * std::ldexp(1 + t, static_cast<int>(generator() % 2100) - 1075);
       break;

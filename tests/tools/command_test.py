@@ -182,9 +182,20 @@ class BadInput(CommandTest):
     def test_constant(self):
         self.refused(self.of_text(self.REGION + "one: 1\n"), 1, "one", "constant")
 
-    def test_root_of_a_variable(self):
-        self.refused(self.of_text(self.REGION + "y - x^(1/2)\n"), 1, r"input\.curves:2:\d+",
-                     "exponent")
+    def test_unknown_function(self):
+        self.refused(self.of_text(self.REGION + "y - cbrt(x)\n"), 1, r"input\.curves:2:5", "cbrt",
+                     "sqrt", r"\n.*\^")
+
+    def test_function_without_a_parenthesis(self):
+        self.refused(self.of_text(self.REGION + "y - sin x\n"), 1, r"input\.curves:2:9", "sin")
+
+    def test_no_value_anywhere(self):
+        self.refused(self.of_text(self.REGION + "void: log(-1 - x^2)\n"), 1, "void", "no value")
+
+    def test_perturbed_expression(self):
+        file = self.path("input.curves", self.REGION + "wave: y - sin(x)\n")
+        run = encase("curves", file, "--perturb", "1e-8")
+        self.refused(run, 1, "wave", "perturbed")
 
     def test_not_a_number(self):
         self.refused(self.of_text(self.REGION + "x + NaN\n"), 1, r"input\.curves:2:5", "NaN")
