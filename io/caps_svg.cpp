@@ -21,7 +21,7 @@ constexpr const char* kSeveral = "#c1121f";
 constexpr const char* kOpen = "#7b2cbf";
 constexpr double kVisible = 0.6;     ///< smaller leaves, in pixels, have no outlines
 constexpr double kSample = 2;        ///< pixels between the points at which curves are sampled
-constexpr double kFineSample = 0.6;  ///< where a curve is not proved to be a graph
+constexpr double kFineSample = 0.6;  ///< where a curve may oscillate
 constexpr double kApart = 5;         ///< marks of equal kind nearer than this, in pixels, are one
 
 using Kind = CapsVertex::Kind;
@@ -137,7 +137,9 @@ class CapsPicture {
   /// The zeros of a curve in a leaf, sampled: where its sign changes on a grid of squares.
   std::string sampled(CurveBounds& curve, const CapsLeaf& leaf) const {
     const Box<2>& box = leaf.box;
-    const double step = leaf.graph_axis < 0 ? kFineSample : kSample;
+    const NamedCurve& name = r_.curves[static_cast<std::size_t>(curves_in(leaf)[0])];
+    const bool calm = leaf.graph_axis >= 0 && name.function.is_polynomial();
+    const double step = calm ? kSample : kFineSample;
     std::array<int, 2> count;
     for (int i = 0; i < 2; ++i) {
       const double length = box.width(i) * (i == 0 ? view_.scale_x : view_.scale_y);
@@ -211,17 +213,23 @@ class CapsPicture {
   void draw_vertices() {
     add("<g id=\"vertices\">\n");
     std::array<std::vector<Point<2>>, kMarks.size()> drawn;
-    for (const CapsVertex& vertex : r_.vertices) {
-      const Point<2> c = view_.center(vertex.box);
-      std::vector<Point<2>>& others = drawn[static_cast<std::size_t>(vertex.kind)];
-      const bool near = std::any_of(others.begin(), others.end(), [&](const Point<2>& p) {
-        return std::hypot(p[0] - c[0], p[1] - c[1]) < kApart;
-      });
-      if (near && vertex.kind != Kind::Crossing) continue;
-      others.push_back(c);
-      add("{}\n", marked(vertex.kind, c[0], c[1]));
-    }
+    for (const bool open : {false, true})
+      for (const CapsVertex& vertex : r_.vertices)
+        if (open != (vertex.kind == Kind::Crossing || vertex.kind == Kind::Boundary))
+          draw_vertex(vertex, &drawn);
     add("</g>\n");
+  }
+
+  void draw_vertex(const CapsVertex& vertex,
+                   std::array<std::vector<Point<2>>, kMarks.size()>* drawn) {
+    const Point<2> c = view_.center(vertex.box);
+    std::vector<Point<2>>& others = (*drawn)[static_cast<std::size_t>(vertex.kind)];
+    const bool near = std::any_of(others.begin(), others.end(), [&](const Point<2>& p) {
+      return std::hypot(p[0] - c[0], p[1] - c[1]) < kApart;
+    });
+    if (near && vertex.kind != Kind::Crossing) return;
+    others.push_back(c);
+    add("{}\n", marked(vertex.kind, c[0], c[1]));
   }
 
   std::vector<LegendEntry> legend_entries() const {

@@ -18,9 +18,10 @@
 /// polynomials, sin, 1/x. docs/caps.md says what is proved, and how.
 namespace encase {
 
-/// A box is cut in four at lo + kCapsCut (hi - lo), in doubles: not quite in the middle, where
-/// symmetric curves like to pass. No curve may pass through a corner of a leaf.
-inline constexpr double kCapsCut = 0x1.0028p-1;
+/// A box is cut in four at lo + kCapsCut (hi - lo) along x and along y, in doubles: not quite in
+/// the middle, where symmetric curves like to pass, nor at equal parts, where diagonals do. Nothing
+/// is proved of a curve that passes through a corner of a leaf.
+inline constexpr std::array<double, 2> kCapsCut{0x1.0028p-1, 0x1.ffa2p-2};
 
 /// What a leaf holds. A curve that is not in a leaf's list is proved to have no point in the
 /// (closed) leaf.

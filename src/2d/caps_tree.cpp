@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 
@@ -12,6 +13,7 @@ namespace {
 
 /// So many parts of a box are looked at for the proof that a curve meets it.
 constexpr std::size_t kMostParts = 64;
+constexpr std::int64_t kMostNodes = 1'000'000'000;  // that can be numbered, with what they hold
 constexpr int kDeepest = 1000;  // levels; doubles have fewer between any two of them
 
 /// A box that is to be classified, with the curves that may pass.
@@ -25,7 +27,7 @@ struct Open {
 /// Where a box is cut in four.
 Point<2> cut_of(const Box<2>& box) {
   Point<2> cut;
-  for (int i = 0; i < 2; ++i) cut[i] = box.lo[i] + kCapsCut * (box.hi[i] - box.lo[i]);
+  for (int i = 0; i < 2; ++i) cut[i] = box.lo[i] + kCapsCut[i] * (box.hi[i] - box.lo[i]);
   return cut;
 }
 
@@ -158,8 +160,8 @@ bool Subdivider::can_divide(const Box<2>& box) {
   const Point<2> cut = cut_of(box);
   const bool possible =
       box.lo[0] < cut[0] && cut[0] < box.hi[0] && box.lo[1] < cut[1] && cut[1] < box.hi[1];
-  if (static_cast<std::int64_t>(tree_.nodes.size()) + 4 > options_.max_boxes)
-    tree_.cut_short = true;
+  const std::int64_t most = std::min(options_.max_boxes, kMostNodes);
+  if (static_cast<std::int64_t>(tree_.nodes.size()) + 4 > most) tree_.cut_short = true;
   return possible && !tree_.cut_short;
 }
 

@@ -70,7 +70,7 @@ void expect_quadtree(const CapsResult& r) {
     for (int k = 3; k >= 0; --k) {
       Box<2> part = box;
       for (int i = 0; i < 2; ++i) {
-        const double cut = box.lo[i] + kCapsCut * (box.hi[i] - box.lo[i]);
+        const double cut = box.lo[i] + kCapsCut[i] * (box.hi[i] - box.lo[i]);
         ((i == 0 ? k / 2 : k % 2) ? part.lo : part.hi)[i] = cut;
       }
       stack.push_back({part, depth + 1});
@@ -135,6 +135,15 @@ TEST(Caps, FindsTheCrossingsOfLines) {
     });
   };
   EXPECT_TRUE(at(0.8, 0.4) && at(2, 1) && at(-1, 1));
+}
+
+TEST(Caps, SymmetricCurvesAreInGeneralPosition) {
+  const CapsResult result = run({"y - x", "y + x", "x^2 + y^2 - 4", "x", "y - 1"}, 1e-6, true,
+                                encased::rectangle(-4, 4, -3, 3));
+  EXPECT_GE(count(result, Kind::Several), 1);
+  EXPECT_EQ(count(result, Kind::Crossing), 11);
+  EXPECT_EQ(result.obstacles.open_vertices, count(result, Kind::Several));
+  EXPECT_EQ(result.obstacles.open_edges, 0);
 }
 
 TEST(Caps, TouchingCirclesAreInContact) {
@@ -264,11 +273,11 @@ TEST(Caps, PolylinesRunThroughLeavesOfTheirCurve) {
 
 TEST(Caps, IsUndecidedWhereABudgetRunsOut) {
   CapsOptions options;
-  options.max_boxes = 200;
+  options.max_boxes = 60;
   const CapsResult few =
       caps(written_curves({"x - y", "x + y - 1"}), encased::square(), options).value();
   EXPECT_EQ(few.answer, CapsClass::Undecided);
-  EXPECT_LE(few.nodes, 200);
+  EXPECT_LE(few.nodes, 60);
   EXPECT_GT(few.obstacles.indeterminate_leaves, 0);
   expect_quadtree(few);
   options = {};

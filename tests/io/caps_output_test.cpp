@@ -15,13 +15,14 @@ namespace {
 using Json = nlohmann::json;
 
 CapsResult sample(bool self_crossings = true) {
-  const CurvesFile file = read_curves(
-                              "region: -2 3 -2 2\n"
-                              "circle: x^2 + y^2 = 2\n"
-                              "wave & co: y = sin(2x)/2\n"
-                              "x = 1/7\n",
-                              "test")
-                              .value();
+  CurvesFile file = read_curves(
+                        "region: -2 3 -2 2\n"
+                        "circle: x^2 + y^2 = 2\n"
+                        "y = sin(2x)/2\n"
+                        "x = 1/7\n",
+                        "test")
+                        .value();
+  file.curves[1].name = "wave & co";
   CapsOptions options;
   options.epsilon = 1e-4;
   options.self_crossings = self_crossings;

@@ -535,7 +535,7 @@ class Check(CommandTest):
 
 
 class Caps(CommandTest):
-    LINES = ("-e", "a: x - y", "-e", "b: x + y - 1", "--region", "-1 2 -1 2")
+    LINES = ("-e", "a: x - y", "-e", "b: x + y - 1", "--region", "-1 2 -2 3")
 
     def test_is_exact_for_lines(self):
         run = encase("caps", *self.LINES, "-v")
@@ -554,8 +554,8 @@ class Caps(CommandTest):
         with open(out["svg"]) as file:
             self.assertIn("</svg>", file.read())
         self.refused(encase("check", out["json"]), 1, "'curves' only")
-        self.assertEqual(encase("caps", *self.LINES, "--json", "-").stdout,
-                         open(out["json"]).read())
+        with open(out["json"]) as file:
+            self.assertEqual(encase("caps", *self.LINES, "--json", "-").stdout, file.read())
 
     def test_summary_and_exit_codes(self):
         run = encase("caps", *self.LINES, "--summary")
