@@ -42,8 +42,12 @@ double smallest_part(Unresolved::Kind kind) {
   return kind == Unresolved::Kind::Contact ? 0x1p-44 : 0x1p-40;
 }
 
-/// Of the shared cover, so many leaves are told apart when a pair's common zeros are sought.
-constexpr std::size_t kFewLeaves = 64;
+/// Whether to look for the common zeros of a pair only in its open leaves. A few leaves leave
+/// little out of the box around them, and very many are small, and tell little.
+bool leaves_tell(const MeetingPair& pair) {
+  constexpr std::size_t kFew = 8, kMany = 1024;
+  return pair.open() == 0 || (pair.meetings.size() > kFew && pair.meetings.size() <= kMany);
+}
 
 }  // namespace
 
@@ -455,6 +459,7 @@ void Encaser::isolate_crossings() {
   result_.undecided.clear();
   report_gaps();
   const int n = static_cast<int>(polynomials_.size());
+  std::int64_t& isolated = result_.statistics.pairs_isolated = n == 2;
   result_.shared_cover = {};
   curve_roots_.clear();
   if (n > 2) {
@@ -473,21 +478,34 @@ void Encaser::isolate_crossings() {
       if (box.width(0) > 0) box = root_around(box, whole);
     std::vector<Pair> pairs;
     const bool complete = shared.unresolved.empty();
-    for (MeetingPair& pair : meeting_pairs(shared)) {
-      if (earlier_.append_crossings(pair.curves, pair.hull, &features_.crossings,
+    for (const MeetingPair& pair : meeting_pairs(shared)) {
+      isolated += !complete || pair.open() > 0;
+      const Box<2> box = hull(shared, pair);
+      if (earlier_.append_crossings(pair.curves, box, &features_.crossings,
                                     &result_.crossing_covers))
         continue;
-      // Many leaves are all over the root.
-      if (!complete || pair.leaves.size() > kFewLeaves) pair.leaves.clear();
-      pairs.push_back({pair.curves, root_around(pair.hull, whole), std::move(pair.leaves)});
+      pairs.push_back({pair.curves, root_around(box, whole), complete ? &shared : nullptr, pair});
     }
     isolate_pairs(pairs);
     result_.shared_cover = std::move(shared.cover);
   } else {
     for (const TiledFunction& f : tiled_) curve_roots_.push_back(f.box());
-    if (n == 2) isolate_pairs({{{0, 1}, tiled_[0].box(), {}}});
+    if (n == 2) isolate_pairs({{{0, 1}, tiled_[0].box(), nullptr, {}}});
   }
   report_concurrency();
+}
+
+/// In the box around the leaves in which the pair meets, or in those that are open.
+RootIsolation<2> Encaser::isolate_pair(const Pair& pair, SubdivisionLimits* limits,
+                                       Kernel* kernel) {
+  if (!pair.leaves || !leaves_tell(pair.meeting)) {
+    const auto [i, j] = pair.curves;
+    return isolate_roots(tiles_->about(i, pair.root), tiles_->about(j, pair.root), pair.root,
+                         sides_, *limits, *kernel);
+  }
+  Sought<2> sought = sought_in(*pair.leaves, pair.meeting, *tiles_);
+  limits->smallest *= pair.root.largest_width() / sought.root.largest_width();
+  return isolate_roots(std::move(sought), sides_, *limits, *kernel);
 }
 
 /// All common zeros of pairs of curves, each in the part of a box that lies in the region.
@@ -501,14 +519,10 @@ void Encaser::isolate_pairs(const std::vector<Pair>& pairs) {
   std::vector<Isolated> isolated(pairs.size());
   Tasks tasks{"isolating crossings", static_cast<int>(pairs.size())};
   run(tasks, [&](int index) {
-    const auto& [curves, root, leaves] = pairs[index];
-    const auto [i, j] = curves;
     Isolated& result = isolated[index];
     result.kernel = kernel_.fresh();
-    SubdivisionLimits pair_limits = limits(tasks, Unresolved::Kind::Contact, root);
-    if (!leaves.empty()) pair_limits.places = &leaves;
-    result.roots = isolate_roots(tiles_->about(i, root), tiles_->about(j, root), root, sides_,
-                                 pair_limits, result.kernel);
+    SubdivisionLimits pair_limits = limits(tasks, Unresolved::Kind::Contact, pairs[index].root);
+    result.roots = isolate_pair(pairs[index], &pair_limits, &result.kernel);
     result.smallest = pair_limits.smallest;
     result.stopped = is_used_up_;
   });
@@ -659,10 +673,10 @@ void Encaser::collect_zones() {
 
 void Encaser::count_pairs() {
   Statistics& s = result_.statistics;
-  s.pairs_met = s.pairs_isolated = static_cast<std::int64_t>(result_.crossing_covers.size());
-  s.filter_failures = 0;
+  s.pairs_met = static_cast<std::int64_t>(result_.crossing_covers.size());
+  s.filter_failures = s.pairs_isolated;
   for (const CrossingCover& cover : result_.crossing_covers)
-    s.filter_failures += std::none_of(cover.tokens.begin(), cover.tokens.end(), [&](int token) {
+    s.filter_failures -= std::any_of(cover.tokens.begin(), cover.tokens.end(), [&](int token) {
       return token == cover::kUnresolved ||
              (token >= 0 && result_.crossings[token].location != Location::Outside);
     });

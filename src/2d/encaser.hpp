@@ -13,6 +13,8 @@
 #include "2d/cell_splitter.hpp"
 #include "2d/earlier_encasement.hpp"
 #include "2d/partition.hpp"
+#include "2d/shared_leaves.hpp"
+#include "common/isolate_roots.hpp"
 #include "common/run_clock.hpp"
 #include "common/subdivision.hpp"
 #include "common/tile.hpp"
@@ -62,11 +64,15 @@ class Encaser {
   bool open_plane();
   SubdivisionLimits limits(Tasks& tasks, Unresolved::Kind kind, const Box<2>& root);
   std::function<bool()> stop(const char* stage);
+  /// A pair of curves, and where its common zeros are: in a box, and if leaves are given, in those
+  /// in which it meets.
   struct Pair {
     std::array<int, 2> curves;
     Box<2> root;
-    std::vector<Box<2>> leaves;  ///< their common zeros are known to lie in these; empty: unknown
+    const SharedLeaves* leaves = nullptr;
+    MeetingPair meeting;
   };
+  RootIsolation<2> isolate_pair(const Pair& pair, SubdivisionLimits* limits, Kernel* kernel);
   void isolate_pairs(const std::vector<Pair>& pairs);
   void use_region(const Region& region);
   std::vector<Box<2>> clusters_of(const std::vector<Box<2>>& unresolved) const;

@@ -19,7 +19,8 @@ constexpr double kWidest = 0.5;  // what may stay open around one direction: it 
 // Of the sides: curves that go to infinity along a diagonal of one rectangle do not along others'.
 constexpr std::array<double, 4> kRatios{1, 0.75, 1.375, 0.625};
 
-/// A curve in a chart, and its derivative along v, made when it is first asked for.
+/// A curve outside of a rectangle with the half width 1, in a chart, and its derivative along v,
+/// made when it is first asked for. Outside of the same rectangle t times as large: |u| <= 1 / t.
 class Outside {
  public:
   Outside(const Polynomial<2>& p, const Point<2>& half, int chart)
@@ -36,12 +37,6 @@ class Outside {
   std::optional<FilteredFunction<2>> slope_;
 };
 
-Box<2> box_of(double lo, double hi) { return {{-1, lo}, {1, hi}}; }
-
-bool keeps_sign(const FilteredFunction<2>& f, double lo, double hi, Kernel& kernel) {
-  return f.degree() >= 0 && sign_on_box(f, box_of(lo, hi), kernel).has_value();
-}
-
 /// What the search asks about.
 struct Question {
   const std::vector<Polynomial<2>>& curves;
@@ -49,18 +44,19 @@ struct Question {
   Kernel& kernel;
 };
 
-/// The pieces of one chart for one rectangle.
+/// The curves in one chart, for rectangles of one ratio.
 class Charting {
  public:
-  Charting(const Question& question, const Point<2>& half, int chart)
-      : question_(question), chart_(chart) {
+  Charting(const Question& question, double ratio, int chart) : question_(question), chart_(chart) {
     outside_.reserve(question.curves.size());
-    for (const Polynomial<2>& p : question.curves) outside_.emplace_back(p, half, chart);
+    for (const Polynomial<2>& p : question.curves)
+      outside_.emplace_back(p, Point<2>{1, ratio}, chart);
   }
 
-  /// False as soon as there are more than `most` open directions, one is too wide, or it is
-  /// stopped.
-  bool run(std::size_t most, Surroundings* result) {
+  /// The pieces for the rectangle with the half width 2^power. False as soon as there are more than
+  /// `most` open directions, one is too wide, or it is stopped.
+  bool run(int power, std::size_t most, Surroundings* result) {
+    reach_ = std::ldexp(1.0, -power);
     most_ = most;
     std::vector<int> all(outside_.size());
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<int>(k);
@@ -68,14 +64,19 @@ class Charting {
   }
 
  private:
+  bool keeps_sign(const FilteredFunction<2>& f, double lo, double hi) const {
+    return f.degree() >= 0 &&
+           sign_on_box(f, {{-reach_, lo}, {reach_, hi}}, question_.kernel).has_value();
+  }
+
   bool divide(double lo, double hi, const std::vector<int>& curves, Surroundings* result) {
     if (question_.stop && question_.stop()) return false;
     std::vector<int> here;
     for (const int c : curves)
-      if (!keeps_sign(outside_[c].f(), lo, hi, question_.kernel)) here.push_back(c);
+      if (!keeps_sign(outside_[c].f(), lo, hi)) here.push_back(c);
     const bool at_corner = lo == -1 || hi == 1;
-    if (here.empty() || (here.size() == 1 && !at_corner &&
-                         keeps_sign(outside_[here[0]].slope(), lo, hi, question_.kernel))) {
+    if (here.empty() ||
+        (here.size() == 1 && !at_corner && keeps_sign(outside_[here[0]].slope(), lo, hi))) {
       result->pieces.push_back({chart_, lo, hi, here.empty() ? -1 : here[0]});
       return true;
     }
@@ -99,38 +100,46 @@ class Charting {
   const Question& question_;
   std::vector<Outside> outside_;
   int chart_;
+  double reach_ = 1;  ///< of u
   std::size_t most_ = 0;
 };
 
-std::optional<Surroundings> try_rectangle(const Question& question, const Point<2>& half,
-                                          std::size_t most_open) {
-  Surroundings result;
-  result.half = half;
-  for (int chart = 0; chart < 2; ++chart)
-    if (!Charting(question, half, chart).run(most_open, &result)) return std::nullopt;
-  return result;
-}
+/// The rectangles of one ratio.
+class Rectangles {
+ public:
+  Rectangles(const Question& question, double ratio)
+      : ratio_(ratio), charts_{Charting(question, ratio, 0), Charting(question, ratio, 1)} {}
 
-/// The smallest rectangle of a ratio that has at most so many open directions.
-std::optional<Surroundings> smallest(const Question& question, double ratio,
-                                     std::size_t most_open) {
-  const auto at = [&](int power) {
+  /// The one with the half width 2^power, if it has at most so many open directions.
+  std::optional<Surroundings> at(int power, std::size_t most_open) {
     const double x = std::ldexp(1.0, power);
-    return try_rectangle(question, {x, ratio * x}, most_open);
-  };
-  int power = 0;
-  std::optional<Surroundings> best = at(power);
-  if (best) {
-    while (power > kLeastPower) {
-      auto smaller = at(--power);
-      if (!smaller) break;
-      best = std::move(smaller);
-    }
-  } else {
-    while (!best && power < kMostPower) best = at(++power);
+    Surroundings result;
+    result.half = {x, ratio_ * x};
+    for (Charting& chart : charts_)
+      if (!chart.run(power, most_open, &result)) return std::nullopt;
+    return result;
   }
-  return best;
-}
+
+  /// The smallest such.
+  std::optional<Surroundings> smallest(std::size_t most_open) {
+    int power = 0;
+    std::optional<Surroundings> best = at(power, most_open);
+    if (best) {
+      while (power > kLeastPower) {
+        auto smaller = at(--power, most_open);
+        if (!smaller) break;
+        best = std::move(smaller);
+      }
+    } else {
+      while (!best && power < kMostPower) best = at(++power, most_open);
+    }
+    return best;
+  }
+
+ private:
+  double ratio_;
+  std::array<Charting, 2> charts_;
+};
 
 }  // namespace
 
@@ -138,15 +147,14 @@ Surroundings find_surroundings(const std::vector<Polynomial<2>>& curves,
                                const std::function<bool()>& stop, Kernel& kernel) {
   const Question question{curves, stop, kernel};
   for (const double ratio : kRatios)
-    if (auto found = smallest(question, ratio, 0)) return *std::move(found);
+    if (auto found = Rectangles(question, ratio).smallest(0)) return *std::move(found);
   // There are directions in which nothing helps: as few as in a large rectangle.
   constexpr std::size_t kMany = 1000;
   std::optional<Surroundings> best;
   double best_ratio = 1;
   for (const int large : {24, kMostPower}) {
     for (const double ratio : kRatios) {
-      const double x = std::ldexp(1.0, large);
-      auto found = try_rectangle(question, {x, ratio * x}, kMany);
+      auto found = Rectangles(question, ratio).at(large, kMany);
       if (!found || (best && best->open.size() <= found->open.size())) continue;
       best = std::move(found);
       best_ratio = ratio;
@@ -158,7 +166,7 @@ Surroundings find_surroundings(const std::vector<Polynomial<2>>& curves,
     std::iota(all.begin(), all.end(), 0);
     return {{1, 0.75}, {}, {{0, -1, 1, all}, {1, -1, 1, all}}};
   }
-  auto small = smallest(question, best_ratio, best->open.size());
+  auto small = Rectangles(question, best_ratio).smallest(best->open.size());
   return small ? *std::move(small) : *std::move(best);
 }
 

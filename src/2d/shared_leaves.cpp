@@ -2,28 +2,35 @@
 #include "2d/shared_leaves.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "common/analytic_gaps.hpp"
 #include "common/patch.hpp"
 #include "common/plane_subdivision.hpp"
+#include "common/strip.hpp"
 
 namespace encase {
 namespace {
 
-/// With so few curves alive a box is a leaf.
+/// With so few curves alive, or so few pairs of several that may meet, a box is a leaf.
 constexpr std::size_t kFew = 2;
+constexpr int kFewPairs = 2;
 /// So many halvings in a row that took no curve away: twice across either axis.
 constexpr int kInVain = 4;
-/// With more curves a halving counts as long as it takes some away from the other half.
+/// With more curves a halving counts as long as it takes some away from the other half, and it is
+/// not asked which pairs may meet.
 constexpr std::size_t kSeveral = 8;
 constexpr int kDeepest = 40;  // levels of halvings
 constexpr int kMostBoxes = 200000;
 /// A part with both widths above this fraction of the whole's is treated as the whole.
 constexpr double kHardlySmaller = 0.6;
+/// So many leaves in which two curves are apart may be excluded with what is between them: a
+/// checker has to tell them apart again.
+constexpr std::size_t kMostTogether = 256;
 
 /// A curve in a box where it may have zeros, with its patch there if it has one already.
 struct Alive {
@@ -55,7 +62,9 @@ class SharedSubdivision {
   bool subdivide() {
     result_ = {};
     result_.cover.root = curves_.box();
-    Part whole{result_.cover.root, false, {}};
+    Part whole;
+    whole.box = result_.cover.root;
+    path_ = {};
     whole.alive.resize(static_cast<std::size_t>(curves_.size()));
     for (std::size_t c = 0; c < whole.alive.size(); ++c) whole.alive[c].curve = static_cast<int>(c);
     look_at(0, &whole);
@@ -68,6 +77,7 @@ class SharedSubdivision {
   struct Part {
     Box<2> box;
     bool inside = false;
+    bool sharp = true;  ///< all their patches tell much
     std::vector<Alive> alive;
   };
   /// What looking at a part has brought.
@@ -75,6 +85,8 @@ class SharedSubdivision {
 
   Look look_at(int level, Part* part);
   void visit(int level, int in_vain, Part& part);
+  int find_open_pairs(const Part& part);
+  void add_leaf(const Part& part);
   bool provide_patch(const Box<2>& box, int level, Alive* alive);
 
   NestedTiles& curves_;
@@ -82,6 +94,9 @@ class SharedSubdivision {
   const std::function<bool()>& stop_;
   Kernel& kernel_;
   SharedLeaves result_;
+  SharedLeaves::Path path_;  ///< to the box at hand
+  std::vector<Strip> strips_;
+  std::vector<char> open_;
   bool stopped_ = false;
   std::size_t few_ = kFew;
   /// The lower halves, by level. (An upper half takes its parent's place.)
@@ -94,18 +109,20 @@ bool SharedSubdivision::provide_patch(const Box<2>& box, int level, Alive* alive
   const auto coarse = [&] { return !(alive->patch.radius <= 0x1p-4 * alive->patch.magnitude()); };
   const bool known = alive->expanded_at >= 0;
   if (known && (alive->expanded_at + 2 > level || !coarse())) return !coarse();
-  TiledFunction& f = curves_.about(alive->curve, box);
-  if (!f.gaps().empty()) {
+  if (const auto& gaps = curves_.about(alive->curve, box).gaps(); !gaps.empty()) {
     // Nothing more can be told within a gap.
-    const Relation here = relation(box, f.gaps());
+    const Relation here = relation(box, gaps);
     if (here != Relation::Apart) return here == Relation::Within;
   }
-  const Tile& tile = f.at(box.center());
-  for (int axis = 0; axis < 2; ++axis)
-    if (0.5 * box.width(axis) > 1.01 * tile.half[axis]) return false;
-  expand(tile, box, patch_count(f.polynomial().degree()), &alive->patch);
-  alive->expanded_at = level;
-  return !coarse();
+  // (The tiles around the middle are not halves of the same box; this one may reach beyond.)
+  for (TiledFunction* f : {&curves_.about(alive->curve, box), &curves_.whole(alive->curve)}) {
+    const Tile& tile = f->at(box.center());
+    if (!holds(tile, box)) continue;
+    expand(tile, box, patch_count(f->polynomial().degree()), &alive->patch);
+    alive->expanded_at = level;
+    return !coarse();
+  }
+  return false;
 }
 
 /// Takes away the curves that are proved to have no zero in the part. A patch that tells little yet
@@ -118,20 +135,53 @@ SharedSubdivision::Look SharedSubdivision::look_at(int level, Part* part) {
   }
   std::vector<Alive>& alive = part->alive;
   std::size_t left = 0;
-  bool sharp = true;
+  part->sharp = true;
   for (std::size_t k = 0; k < alive.size(); ++k) {
     const bool tells = provide_patch(part->box, level, &alive[k]);
     if (alive[k].expanded_at >= 0 && alive[k].patch.sign()) {
       kernel_.count(Kernel::kDoubleBits);
       continue;
     }
-    sharp = sharp && tells;
+    part->sharp = part->sharp && tells;
     if (left < k) alive[left] = alive[k];
     ++left;
   }
-  const bool gained = left < alive.size() || !sharp;
+  const bool gained = left < alive.size() || !part->sharp;
   alive.resize(left);
   return gained ? Look::Gained : Look::Nothing;
+}
+
+/// The pairs of curves that may have common zeros in the part: their number, and in `open_`, by the
+/// second and then the first one's place among those alive.
+int SharedSubdivision::find_open_pairs(const Part& part) {
+  const auto& alive = part.alive;
+  strips_.resize(alive.size());
+  open_.clear();
+  for (std::size_t j = 0; j < alive.size(); ++j) {
+    if (alive[j].expanded_at >= 0) strips_[j] = strip_of(alive[j].patch);
+    for (std::size_t i = 0; i < j; ++i)
+      open_.push_back(alive[i].expanded_at < 0 || alive[j].expanded_at < 0 ||
+                      !apart(strips_[i], strips_[j]));
+  }
+  return static_cast<int>(std::count(open_.begin(), open_.end(), true));
+}
+
+/// Makes a part a leaf; its open pairs have been found.
+void SharedSubdivision::add_leaf(const Part& part) {
+  const auto& alive = part.alive;
+  const int leaf = static_cast<int>(result_.boxes.size());
+  result_.cover.tokens.push_back(leaf);
+  auto& names = result_.cover.alive.emplace_back();
+  names.reserve(alive.size());
+  for (const Alive& a : alive) names.push_back(a.curve);
+  result_.boxes.push_back(part.box);
+  result_.paths.push_back(path_);
+  std::size_t pair = 0;
+  for (std::size_t j = 0; j < alive.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i)
+      result_.meetings.push_back({alive[i].curve, alive[j].curve, leaf, !open_[pair++]});
+  for (const char open : open_)
+    if (!open) kernel_.count(Kernel::kDoubleBits);
 }
 
 /// Subdivides a part that has been looked at. (In a wide region most curves pass the middle, and
@@ -149,16 +199,20 @@ void SharedSubdivision::visit(int level, int in_vain, Part& part) {
   Part& upper = part;
   const Box<2> box = part.box;
   const int axis = cover::kSplitX - wider_axis(box);
-  if (part.alive.size() <= few_ || in_vain >= kInVain || level == kDeepest ||
-      result_.visited >= kMostBoxes || !halve_box(box, axis, &lower.box, &upper.box)) {
-    cover.tokens.push_back(static_cast<int>(cover.alive.size()));
-    auto& names = cover.alive.emplace_back();
-    names.reserve(part.alive.size());
-    for (const Alive& a : part.alive) names.push_back(a.curve);
-    result_.boxes.push_back(box);
+  const bool several = part.alive.size() > kSeveral;
+  const bool looks_at_pairs = !several && part.sharp;
+  const int open = looks_at_pairs ? find_open_pairs(part) : 0;
+  if (part.alive.size() <= few_ || (looks_at_pairs && open <= kFewPairs) || in_vain >= kInVain ||
+      level == kDeepest || result_.visited >= kMostBoxes ||
+      !halve_box(box, axis, &lower.box, &upper.box)) {
+    if (!looks_at_pairs) find_open_pairs(part);
+    path_.length = level;
+    add_leaf(part);
     return;
   }
   cover.tokens.push_back(cover::kSplitX - axis);
+  const std::uint64_t bit = std::uint64_t{1} << level;
+  path_.across_y = axis == 1 ? path_.across_y | bit : path_.across_y & ~bit;
   lower.inside = upper.inside;
   lower.alive.resize(upper.alive.size());
   for (std::size_t k = 0; k < upper.alive.size(); ++k) {
@@ -167,11 +221,10 @@ void SharedSubdivision::visit(int level, int in_vain, Part& part) {
     below.expanded_at = above.expanded_at;
     if (above.expanded_at >= 0) halve(above.patch, axis, false, &below.patch, &above.patch);
   }
-  const std::size_t before = upper.alive.size();
   const std::array<Part*, 2> halves{&lower, &upper};
   const std::array<Look, 2> looks{look_at(level + 1, &lower), look_at(level + 1, &upper)};
-  const bool several = before > kSeveral;
   for (int k = 0; k < 2; ++k) {
+    path_.upper = k == 1 ? path_.upper | bit : path_.upper & ~bit;
     const bool gained = looks[k] == Look::Gained || (several && looks[1 - k] == Look::Gained);
     if (looks[k] == Look::Outside) {
       ++result_.visited;
@@ -184,37 +237,115 @@ void SharedSubdivision::visit(int level, int in_vain, Part& part) {
 
 constexpr Box<2> kNothing{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
 
+bool bit(std::uint64_t bits, int k) { return (bits >> k & 1) != 0; }
+
+/// Of the way to the smallest box in which both leaves are.
+int common_length(const SharedLeaves::Path& a, const SharedLeaves::Path& b) {
+  return std::min({std::countr_zero(a.upper ^ b.upper), a.length, b.length});
+}
+
+/// Writes a part of the subdivision as tokens: the ways to some of its leaves, in preorder. What
+/// else is there is excluded.
+class Pruning {
+ public:
+  /// Of a box that all leaves are in, at the end of so much of their paths.
+  explicit Pruning(int top) : top_(top) {}
+
+  int top() const { return top_; }
+  /// The next token is to be the leaf's.
+  void go_to(const SharedLeaves::Path& leaf, std::vector<int>* tokens) {
+    int level = top_;
+    if (at_) {
+      // The box that both are in has been halved.
+      level = common_length(*at_, leaf) + 1;
+      leave(level, tokens);
+    }
+    for (; level < leaf.length; ++level) {
+      tokens->push_back(bit(leaf.across_y, level) ? cover::kSplitY : cover::kSplitX);
+      if (bit(leaf.upper, level)) tokens->push_back(cover::kExcluded);
+    }
+    at_ = &leaf;
+  }
+  void finish(std::vector<int>* tokens) const { leave(top_, tokens); }
+
+ private:
+  void leave(int level, std::vector<int>* tokens) const {
+    for (int k = at_->length - 1; k >= level; --k)
+      if (!bit(at_->upper, k)) tokens->push_back(cover::kExcluded);
+  }
+
+  int top_;
+  const SharedLeaves::Path* at_ = nullptr;
+};
+
+/// By curves; what is of the same curves stays in its order.
+void sort_meetings(int curves, std::vector<Meeting>* meetings) {
+  std::vector<Meeting> sorted(meetings->size());
+  for (const auto curve : {&Meeting::second, &Meeting::first}) {
+    std::vector<std::size_t> place(static_cast<std::size_t>(curves) + 1, 0);
+    for (const Meeting& m : *meetings) ++place[static_cast<std::size_t>(m.*curve) + 1];
+    std::partial_sum(place.begin(), place.end(), place.begin());
+    for (const Meeting& m : *meetings) sorted[place[static_cast<std::size_t>(m.*curve)]++] = m;
+    meetings->swap(sorted);
+  }
+}
+
 }  // namespace
 
 SharedLeaves share_leaves(NestedTiles& curves, const std::vector<Line>& half_planes,
                           const std::function<bool()>& stop, Kernel& kernel) {
-  return SharedSubdivision(curves, half_planes, stop, kernel).run();
+  SharedLeaves leaves = SharedSubdivision(curves, half_planes, stop, kernel).run();
+  sort_meetings(curves.size(), &leaves.meetings);
+  return leaves;
 }
 
 std::vector<MeetingPair> meeting_pairs(const SharedLeaves& leaves) {
-  struct Meeting {
-    int first, second, leaf;
-  };
-  std::vector<Meeting> meetings;
-  for (std::size_t k = 0; k < leaves.boxes.size(); ++k) {
-    const std::vector<int>& alive = leaves.cover.alive[k];
-    for (std::size_t i = 0; i < alive.size(); ++i)
-      for (std::size_t j = i + 1; j < alive.size(); ++j)
-        meetings.push_back({alive[i], alive[j], static_cast<int>(k)});
-  }
-  std::sort(meetings.begin(), meetings.end(), [](const Meeting& a, const Meeting& b) {
-    return std::tie(a.first, a.second, a.leaf) < std::tie(b.first, b.second, b.leaf);
-  });
   std::vector<MeetingPair> pairs;
-  for (const Meeting& m : meetings) {
-    const std::array<int, 2> curves{m.first, m.second};
-    if (pairs.empty() || pairs.back().curves != curves) pairs.push_back({curves, {}, kNothing});
-    MeetingPair& pair = pairs.back();
-    const Box<2>& leaf = leaves.boxes[static_cast<std::size_t>(m.leaf)];
-    pair.leaves.push_back(leaf);
-    pair.hull = hull(pair.hull, leaf);
+  const std::vector<Meeting>& all = leaves.meetings;
+  for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
+    const Meeting& m = all[from];
+    while (to < all.size() && all[to].first == m.first && all[to].second == m.second) ++to;
+    pairs.push_back({{m.first, m.second}, {&m, to - from}});
   }
   return pairs;
+}
+
+Box<2> hull(const SharedLeaves& leaves, const MeetingPair& pair) {
+  Box<2> box = kNothing;
+  for (const Meeting& m : pair.meetings)
+    box = hull(box, leaves.boxes[static_cast<std::size_t>(m.leaf)]);
+  return box;
+}
+
+Sought<2> sought_in(const SharedLeaves& leaves, const MeetingPair& pair, NestedTiles& curves) {
+  const auto path = [&](const Meeting& m) -> const SharedLeaves::Path& {
+    return leaves.paths[static_cast<std::size_t>(m.leaf)];
+  };
+  const bool together = pair.meetings.size() <= kMostTogether;
+  Sought<2> sought;
+  if (together && pair.open() == 0) {
+    sought.root = hull(leaves, pair);
+    sought.tokens = {cover::kExcluded};
+    return sought;
+  }
+  const SharedLeaves::Path &first = path(pair.meetings.front()), &last = path(pair.meetings.back());
+  Pruning pruning(common_length(first, last));
+  sought.root = leaves.cover.root;
+  for (int level = 0; level < pruning.top(); ++level) {
+    Box<2> lower, upper;
+    halve_box(sought.root, bit(first.across_y, level) ? 1 : 0, &lower, &upper);
+    sought.root = bit(first.upper, level) ? upper : lower;
+  }
+  for (const Meeting& m : pair.meetings) {
+    if (m.apart && together) continue;
+    pruning.go_to(path(m), &sought.tokens);
+    sought.tokens.push_back(m.apart ? cover::kExcluded : Sought<2>::kLeaf);
+    if (m.apart) continue;
+    const Box<2>& box = leaves.boxes[static_cast<std::size_t>(m.leaf)];
+    sought.leaves.push_back({box, {&curves.about(m.first, box), &curves.about(m.second, box)}});
+  }
+  pruning.finish(&sought.tokens);
+  return sought;
 }
 
 std::vector<Box<2>> hulls_of_curves(const SharedLeaves& leaves, int count) {

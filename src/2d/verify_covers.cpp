@@ -327,12 +327,19 @@ std::vector<int> curves_near(Claims& claims, const Line& line, const Box<2>& box
 
 namespace {
 
-/// Whether no leaf of the shared cover that meets the box has both curves, or may have them.
+bool overlap(const Box<2>& a, const Box<2>& b) {
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!(a.lo[i] < b.hi[i] && b.lo[i] < a.hi[i])) return false;
+  return true;
+}
+
+/// Whether no leaf of the shared cover that overlaps the box has both curves, or may have them.
+/// (These closed leaves cover the closed box; what only touches it is not needed.)
 bool apart_in_shared_cover(const Claims& claims, const std::array<int, 2>& curves,
                            const Box<2>& box) {
   if (claims.upper_half.empty()) return false;
   return for_shared_leaves(
-      claims, [&](const Box<2>& part) { return !part.meets(box); },
+      claims, [&](const Box<2>& part) { return !overlap(part, box); },
       [&](int token) {
         if (token < 0) return token != cover::kUnresolved;
         const std::vector<int>& alive =
@@ -370,11 +377,11 @@ void check_crossing_covers(Claims& claims) {
                    ? nullptr
                    : "is in no unresolved box of the pair";
       if (token == cover::kExcluded)
-        return apart_in_shared_cover(part, c.curves, leaf) ||
-                       by_parts(leaf,
-                                [&](const Box<2>& box) {
-                                  return no_common_zero<2>(pair, box, part.kernel);
-                                })
+        return by_parts(leaf,
+                        [&](const Box<2>& box) {
+                          return apart_in_shared_cover(part, c.curves, box) ||
+                                 no_common_zero<2>(pair, box, part.kernel);
+                        })
                    ? nullptr
                    : "is not proved free of crossings";
       const Crossing& crossing = e.crossings[static_cast<std::size_t>(token)];

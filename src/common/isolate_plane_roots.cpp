@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "common/isolate_roots.hpp"
 #include "common/plane_subdivision.hpp"
@@ -30,8 +31,9 @@ bool narrow(const Box<2>& box) {
 /// The common zeros of two polynomials that have been found, and how: from boxes of a subdivision.
 class PlaneRoots {
  public:
-  PlaneRoots(TiledFunction& f, TiledFunction& g, Kernel& kernel)
-      : system_{&f, &g}, kernel_(kernel) {}
+  explicit PlaneRoots(Kernel& kernel) : kernel_(kernel) {}
+
+  void use(const std::array<TiledFunction*, 2>& system) { system_ = system; }
 
   std::vector<Box<2>> roots;
   std::vector<bool> rounded;  // as in RootIsolation
@@ -78,7 +80,7 @@ class PlaneRoots {
                                      const Point<2>& x,
                                      const std::array<double, 2>& residual) const;
 
-  std::array<TiledFunction*, 2> system_;
+  std::array<TiledFunction*, 2> system_{};
   Kernel& kernel_;
   std::array<Tile, 2> around_tiles_;
   std::array<CubicSource, 2> sources_;
@@ -445,27 +447,38 @@ std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box
 
 }  // namespace
 
-RootIsolation<2> isolate_roots(TiledFunction& f, TiledFunction& g, const Box<2>& root,
-                               const std::vector<Line>& half_planes,
+RootIsolation<2> isolate_roots(Sought<2> sought, const std::vector<Line>& half_planes,
                                const SubdivisionLimits& limits, Kernel& kernel) {
   RootIsolation<2> result;
-  result.root_box = root;
-  PlaneRoots roots(f, g, kernel);
+  result.root_box = sought.root;
+  const auto known = sought.tokens.size() - sought.leaves.size();
+  if (sought.leaves.empty()) {
+    result.tokens = std::move(sought.tokens);
+    return result;
+  }
+  PlaneRoots roots(kernel);
+  PlaneSubdivision<2> subdivision(std::move(sought), half_planes, limits, kernel);
   const auto visit = [&](PlaneSubdivision<2>::Node& node) {
+    roots.use(subdivision.polynomials());
     if (const auto token = roots.settle(node, &node.part)) return *token;
     if (node.level < kSimpleLevels) return wider_axis(node.box);
     // Across the axis along which they change more: curves that touch or share a tangent there.
     const auto [x, y] = relative_variation(node.net);
     return x >= y ? cover::kSplitX : cover::kSplitY;
   };
-  PlaneSubdivision<2> subdivision({&f, &g}, result.root_box, half_planes, limits, kernel);
   result.tokens = subdivision.run(visit);
-  result.boxes = static_cast<int>(result.tokens.size());
+  result.boxes = static_cast<int>(result.tokens.size() - known);
   result.roots = std::move(roots.roots);
   result.rounded = std::move(roots.rounded);
   if (subdivision.unresolved())
     result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
   return result;
+}
+
+RootIsolation<2> isolate_roots(TiledFunction& f, TiledFunction& g, const Box<2>& root,
+                               const std::vector<Line>& half_planes,
+                               const SubdivisionLimits& limits, Kernel& kernel) {
+  return isolate_roots(sought_in<2>(root, {&f, &g}), half_planes, limits, kernel);
 }
 
 template <>

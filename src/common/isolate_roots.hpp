@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/box_tests.hpp"
+#include "common/sought.hpp"
 #include "common/subdivision.hpp"
-#include "common/tile.hpp"
 
 namespace encase {
 
@@ -45,6 +45,10 @@ RootIsolation<2> isolate_roots<2>(const System<2>& system, const Box<2>& box,
 /// The same in the plane, for polynomials with tiles that cover `root`, which is subdivided.
 RootIsolation<2> isolate_roots(TiledFunction& f, TiledFunction& g, const Box<2>& root,
                                const std::vector<Line>& half_planes,
+                               const SubdivisionLimits& limits, Kernel& kernel);
+
+/// The same in leaves of a subdivision that is begun; its other leaves keep their tokens.
+RootIsolation<2> isolate_roots(Sought<2> sought, const std::vector<Line>& half_planes,
                                const SubdivisionLimits& limits, Kernel& kernel);
 
 }  // namespace encase

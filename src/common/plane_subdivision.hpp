@@ -7,12 +7,14 @@
 #include <memory>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "common/analytic_gaps.hpp"
 #include "common/box_tests.hpp"
 #include "common/cubic_system.hpp"
 #include "common/patch.hpp"
+#include "common/sought.hpp"
 #include "common/subdivision.hpp"
 #include "common/tile.hpp"
 
@@ -27,10 +29,6 @@ inline int wider_axis(const Box<2>& box) {
 /// what patches have.
 inline bool halves_exactly(const Box<2>& box) {
   return centered(box.lo[0], box.hi[0]).exact && centered(box.lo[1], box.hi[1]).exact;
-}
-
-inline bool meets_none(const std::vector<Box<2>>& boxes, const Box<2>& box) {
-  return std::none_of(boxes.begin(), boxes.end(), [&](const Box<2>& b) { return b.meets(box); });
 }
 
 /// Whether a box is proved to lie in all half planes, or outside of one (on its positive side).
@@ -92,33 +90,37 @@ class PlaneSubdivision {
     bool excluded = false;
   };
 
-  PlaneSubdivision(const std::array<TiledFunction*, N>& polynomials, const Box<2>& root,
-                   const std::vector<Line>& half_planes, const SubdivisionLimits& limits,
-                   Kernel& kernel)
-      : polynomials_(polynomials),
-        root_(root),
+  PlaneSubdivision(Sought<N> sought, const std::vector<Line>& half_planes,
+                   const SubdivisionLimits& limits, Kernel& kernel)
+      : sought_(std::move(sought)),
         half_planes_(half_planes),
         limits_(limits),
         kernel_(kernel),
         stack_(std::make_unique_for_overwrite<Node[]>(kLevelsPerBand + 2)) {
-    for (const TiledFunction* f : polynomials) has_gaps_ = has_gaps_ || !f->gaps().empty();
-    if (N == 1)
-      count_ = patch_count(polynomials[0]->polynomial().degree());
-    else
-      bases_ = std::make_unique_for_overwrite<CubicBase[]>(kLevelsPerBand + 1);
+    for (const auto& leaf : sought_.leaves)
+      for (const TiledFunction* f : leaf.polynomials) has_gaps_ = has_gaps_ || !f->gaps().empty();
+    if (N == 2) bases_ = std::make_unique_for_overwrite<CubicBase[]>(kLevelsPerBand + 1);
   }
+  /// Of a whole box.
+  PlaneSubdivision(const std::array<TiledFunction*, N>& polynomials, const Box<2>& root,
+                   const std::vector<Line>& half_planes, const SubdivisionLimits& limits,
+                   Kernel& kernel)
+      : PlaneSubdivision(sought_in<N>(root, polynomials), half_planes, limits, kernel) {}
 
   /// `visit(node)` returns the token that settles the box, or a split token. Returns the tokens in
   /// preorder (encase/cover.hpp).
   template <class Visit>
   std::vector<int> run(Visit visit);
 
+  /// The polynomials with the tiles that serve the box that is visited.
+  const std::array<TiledFunction*, N>& polynomials() const { return polynomials_; }
+
   /// Whether a box stayed unresolved.
   bool unresolved() const { return unresolved_; }
 
  private:
   static constexpr Box<2> kWhole{{-1, -1}, {1, 1}};
-  static constexpr int kWaiting = cover::kUnresolved - 1;
+  static constexpr int kWaiting = Sought<N>::kLeaf;
   static constexpr int kLevelsPerBand = 18;
 
   /// A tile made for one box, where those of the tree are too coarse; those of a node's ancestors
@@ -129,7 +131,7 @@ class PlaneSubdivision {
   };
 
   template <class Visit>
-  void descend(const Box<2>& box, int level, int budget, Visit visit);
+  void descend(const Box<2>& box, int level, int leaf, int budget, Visit visit);
   template <class Visit>
   int token_of(Node& node, Visit visit);
   std::optional<int> token_at_gap(const Node& node);
@@ -142,15 +144,16 @@ class PlaneSubdivision {
   const Tile* local_tile(const Node& node, int i, int bits);
   void settle(int token, const Node& node);
 
-  std::array<TiledFunction*, N> polynomials_;
-  Box<2> root_;
+  const Sought<N> sought_;
+  std::array<TiledFunction*, N> polynomials_{};
   const std::vector<Line>& half_planes_;
   const SubdivisionLimits& limits_;
   Kernel& kernel_;
   std::vector<int> tokens_;
   struct Waiting {
     Box<2> box;
-    int level;
+    int level;  ///< number of halvings of the leaf that was sought
+    int leaf;   ///< that one
   };
   std::vector<Waiting> waiting_;
   std::unique_ptr<Node[]> stack_;
@@ -169,7 +172,9 @@ template <int N>
 template <class Visit>
 std::vector<int> PlaneSubdivision<N>::run(Visit visit) {
   deepest_ = 2 * static_cast<int>(std::floor(-std::log2(std::max(limits_.smallest, 0x1p-500))));
-  descend(root_, 0, limits_.max_boxes, visit);
+  tokens_ = sought_.tokens;
+  for (std::size_t k = 0; k < sought_.leaves.size(); ++k)
+    waiting_.push_back({sought_.leaves[k].box, 0, static_cast<int>(k)});
   while (!waiting_.empty()) {
     const std::vector<Waiting> band = std::move(waiting_);
     const std::vector<int> before = std::move(tokens_);
@@ -190,7 +195,7 @@ std::vector<int> PlaneSubdivision<N>::run(Visit visit) {
         unresolved_ = true;
         ++kernel_.decisions.undecided;
       } else {
-        descend(at.box, at.level, budget, visit);
+        descend(at.box, at.level, at.leaf, budget, visit);
       }
     }
   }
@@ -199,7 +204,9 @@ std::vector<int> PlaneSubdivision<N>::run(Visit visit) {
 
 template <int N>
 template <class Visit>
-void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visit visit) {
+void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int budget, Visit visit) {
+  polynomials_ = sought_.leaves[static_cast<std::size_t>(leaf)].polynomials;
+  if (N == 1) count_ = patch_count(polynomials_[0]->polynomial().degree());
   for (auto& list : local_) list.clear();
   const int last_level = std::min(level + kLevelsPerBand, deepest_);
   first_level_ = level;
@@ -228,10 +235,10 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int budget, Visi
     const int axis = cover::kSplitX - token;
     Box<2> lower, upper;
     const bool divisible = halve_box(node.box, axis, &lower, &upper) &&
-                           node.box.width(axis) > limits_.smallest * root_.width(axis);
+                           node.box.width(axis) > limits_.smallest * sought_.root.width(axis);
     if (!divisible || node.level >= last_level || here > budget) {
       tokens_.push_back(kWaiting);
-      waiting_.push_back({node.box, divisible ? node.level : deepest_});
+      waiting_.push_back({node.box, divisible ? node.level : deepest_, leaf});
       --top;
       continue;
     }
@@ -294,7 +301,6 @@ int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
         return cover::kSplitX - axis;
   node.part = kWhole;
   if (!node.inside && outside(node)) return cover::kOutside;
-  if (limits_.places && meets_none(*limits_.places, node.box)) return cover::kExcluded;
   if (has_gaps_)
     if (const auto token = token_at_gap(node)) return *token;
   if (!provide_net(node)) return node.excluded ? cover::kExcluded : wider_axis(node.box);
@@ -336,6 +342,17 @@ bool PlaneSubdivision<N>::outside(Node& node) const {
 /// nearly touch, and only the last digits tell them apart.
 constexpr int kUsualLevels = 18;  // of halvings
 inline double tolerated(int level, double usual) { return level > kUsualLevels ? 0x1p-26 : usual; }
+
+/// Whether what is known of the tile holds on the box.
+inline bool holds(const Tile& tile, const Box<2>& box) {
+  constexpr double kReach = 1 + 0x1p-11;  // with room for roundings
+  for (int i = 0; i < 2; ++i) {
+    const double reach = kReach * tile.half[i];
+    if (!(box.lo[i] - tile.center[i] >= -reach && box.hi[i] - tile.center[i] <= reach))
+      return false;
+  }
+  return true;
+}
 
 inline bool coarse(const Patch& patch, int level) {
   const double part = tolerated(level, 0x1p-4);
@@ -454,17 +471,20 @@ bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile
       parts[axis] = 0.5 * node.box.width(axis) / tile->half[axis];
     const double part = std::max(parts[0], parts[1]);
     if (part > 1.01) return false;
+    const bool within = holds(*tile, node.box);
     if (!*used) {
       double size = 0;
       for (int k = 0; k <= 2; ++k)
         for (int l = 0; k + l <= 2; ++l) size += std::fabs(tile->a[k][l]);
       if (interpolation_loss(*tile, part).slope > 0x1p-4 * size) return false;
     }
-    make(*tile);
-    *used = tile;
-    if (!coarse(*net, node.level)) return true;
-    // What is lost by the low degree shrinks with the box.
-    if (interpolation_loss(*tile, part).value > 0.5 * net->radius) return true;
+    if (within) {
+      make(*tile);
+      *used = tile;
+      if (!coarse(*net, node.level)) return true;
+      // What is lost by the low degree shrinks with the box.
+      if (interpolation_loss(*tile, part).value > 0.5 * net->radius) return true;
+    }
   }
   // A tile of the box's own, in double-doubles, then in MPFR.
   for (int bits = kernel_.start_bits; bits > 0; bits = kernel_.next(bits)) {

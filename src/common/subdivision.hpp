@@ -91,9 +91,6 @@ struct SubdivisionLimits {
   /// Asked now and then; true ends the subdivision, and what is open stays unresolved.
   std::function<bool()> stop;
   double smallest = 0x1p-40;  ///< boxes are halved down to this part of the root's widths
-  /// If given, what is sought in the plane is known to lie in these boxes: others that meet none of
-  /// them are excluded.
-  const std::vector<Box<2>>* places = nullptr;
   /// Below this part nets are kept sharp to 2^-40 of their size: small boxes are where curves touch
   /// or nearly touch, and only the last digits tell them apart.
   double sharp_below = 0x1p-16;

@@ -37,7 +37,9 @@ void expect_counters(const Encasement& e) {
   for (const CrossingCover& cover : e.crossing_covers) covered.insert(cover.curves);
   EXPECT_EQ(covered, together);
   EXPECT_EQ(s.pairs_met, static_cast<std::int64_t>(together.size()));
-  EXPECT_EQ(s.pairs_isolated, static_cast<std::int64_t>(e.crossing_covers.size()));
+  EXPECT_EQ(s.pairs_met, static_cast<std::int64_t>(e.crossing_covers.size()));
+  EXPECT_LE(s.pairs_isolated, s.pairs_met);
+  EXPECT_GE(s.filter_failures, 0);
   EXPECT_EQ(s.pairs_isolated - s.filter_failures, static_cast<std::int64_t>(counted(e).size()));
 }
 
@@ -71,6 +73,18 @@ TEST(SharedCover, MostPairsOfSmallCirclesNeverMeet) {
     EXPECT_LT(cover.root.largest_width(), 0.5 * whole);
   for (const CriticalCover& cover : e.critical_covers)
     EXPECT_LT(cover.root.largest_width(), 0.5 * whole);
+}
+
+/// Some pairs are told apart where they meet, others need not be sought in all of their leaves.
+TEST(SharedCover, FewPairsOfLongCurvesAreIsolated) {
+  const auto circles = random_circles(40, 200, 500, 11);
+  const Encasement e = encased::run_curves(curves_of(circles));
+  EXPECT_EQ(e.outcome, Outcome::Certified);
+  expect_counters(e);
+  EXPECT_LT(e.statistics.pairs_isolated, e.statistics.pairs_met);
+  const auto counts = counted(e);
+  EXPECT_LT(e.statistics.pairs_isolated, 1.3 * static_cast<double>(counts.size()));
+  encased::expect_certified(e);
 }
 
 TEST(SharedCover, PairsHaveNone) {

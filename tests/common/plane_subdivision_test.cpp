@@ -162,6 +162,53 @@ TEST(PlaneSubdivision, PartsWithoutZerosAreExcluded) {
   for (const Box<2>& box : kept) EXPECT_TRUE(box.contains(zero));
 }
 
+/// Boxes lie across the borders of the tiles of a tree where they are not halves of the same box.
+TEST(PlaneSubdivision, TilesHoldOnAllBoxes) {
+  const FilteredFunction<2> f(written::polynomial<2>("x^20 + y^18 - (x + y/3)^17 + x*y - 1/9"));
+  Kernel kernel;
+  TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
+  const Box<2> root{{-0.65625, -0.59375}, {0.53125, 0.9375}};
+  const SubdivisionLimits limits;
+  const std::vector<Line> none;
+  PlaneSubdivision<1> subdivision({&tiled}, root, none, limits, kernel);
+  int nets = 0;
+  subdivision.run([&](const Node& node) {
+    ++nets;
+    for (int i = 0; i < 2; ++i)
+      for (const double end : {node.box.lo[i], node.box.hi[i]})
+        EXPECT_LE(std::fabs(end - node.tile[0]->center[i]), node.tile[0]->half[i] * Tile::kReach);
+    return node.level < 8 ? wider_axis(node.box) : cover::kExcluded;
+  });
+  EXPECT_GT(nets, 100);
+}
+
+TEST(PlaneSubdivision, LeavesOfABegunSubdivisionAreSubdivided) {
+  const FilteredFunction<2> f(written::polynomial<2>("x - 1/3")),
+      g(written::polynomial<2>("y + 1/7"));
+  Kernel kernel;
+  const Box<2> root{{-1, -1}, {1, 1}}, left{{-1, -1}, {0, 1}}, high{{0, 0}, {1, 1}},
+      low{{0, -1}, {1, 0}};
+  TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
+  Sought<2> sought;
+  sought.root = root;
+  // The zero is at (1/3, -1/7): in the last quarter.
+  sought.tokens = {cover::kSplitX, cover::kExcluded, cover::kSplitY, Sought<2>::kLeaf,
+                   Sought<2>::kLeaf};
+  sought.leaves = {{low, {&of_f, &of_g}}, {high, {&of_f, &of_g}}};
+  const auto result = isolate_roots(sought, {}, SubdivisionLimits{}, kernel);
+  EXPECT_EQ(result.root_box, root);
+  expect_tiles(root, result.tokens);
+  ASSERT_EQ(result.roots.size(), 1u);
+  EXPECT_TRUE(low.contains(result.roots[0]));
+  EXPECT_EQ(leaves(root, result.tokens, cover::kExcluded)[0], left);
+  EXPECT_LT(result.boxes, 10);
+  // Without that leaf it is not found.
+  sought.tokens = {cover::kSplitX, cover::kExcluded, cover::kSplitY, cover::kExcluded,
+                   Sought<2>::kLeaf};
+  sought.leaves.erase(sought.leaves.begin());
+  EXPECT_TRUE(isolate_roots(sought, {}, SubdivisionLimits{}, kernel).roots.empty());
+}
+
 /// Zeros at points that are no doubles, far from the origin: the boxes are some doubles wide, the
 /// centres of the last ones are no doubles, and what is excluded must still be free of the zero.
 TEST(PlaneSubdivision, ZerosBetweenDoublesAreNotLost) {
