@@ -553,7 +553,7 @@ class Caps(CommandTest):
         self.assertEqual((result["command"], result["status"]), ("caps", "exact"))
         with open(out["svg"]) as file:
             self.assertIn("</svg>", file.read())
-        self.refused(encase("check", out["json"]), 1, "'curves' only")
+        self.refused(encase("check", out["json"]), 1, "'slice' only")
         with open(out["json"]) as file:
             self.assertEqual(encase("caps", *self.LINES, "--json", "-").stdout, file.read())
 
@@ -590,6 +590,63 @@ class Caps(CommandTest):
                      "--epsilon", "1e-3", "--self-crossings", "--summary")
         self.encased(run, 3)
         self.assertGreater(json.loads(run.stdout)["crossings"], 0)
+
+
+class Slice(CommandTest):
+    TORUS = ["-e", "(x^2+y^2+z^2+3)^2 - 16(x^2+y^2)", "--region", "box -4 4 -4 4 -4 4"]
+
+    def test_torus(self):
+        run = encase("slice", *self.TORUS, "--plane", "0 0 1 0", "--json", self.path("t.json"),
+                     "--svg", self.path("t.svg"), "--summary")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        summary = json.loads(run.stdout)
+        self.assertEqual(summary["status"], "certified")
+        self.assertEqual((summary["faces"], summary["components"]), (3, 3))
+        check = encase("check", self.path("t.json"))
+        self.assertEqual(check.returncode, 0, check.stdout)
+        # A plane that is not the one of the curves.
+        with open(self.path("t.json")) as file:
+            result = json.load(file)
+        result["slice"]["plane"][3] = "1/2"
+        with open(self.path("moved.json"), "w") as file:
+            json.dump(result, file)
+        self.assertEqual(encase("check", self.path("moved.json")).returncode, 1)
+
+    def test_report_names_the_coordinates(self):
+        run = encase("slice", *self.TORUS, "--plane", "1 0 0 -1/2")
+        self.assertEqual(run.returncode, 0)
+        self.assertIn("plane 1 0 0 -1/2; coordinates y and z", run.stdout)
+
+    def test_count(self):
+        run = encase("slice", *self.TORUS, "--plane", "1 0 0 77", "--count", "3", "--summary")
+        self.assertEqual(run.returncode, 0)
+        faces = [one["faces"] for one in json.loads(run.stdout)["slices"]]
+        # x = -2, 0, 2: a loop, two loops, a loop.
+        self.assertEqual(faces, [2, 3, 2])
+
+    def test_expressions(self):
+        run = encase("slice", "-e", "z = sin(x) cos(y)", "--region", "box -1 1 -1 1 -1 1",
+                     "--plane", "0 0 1 -1/10", "--summary")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(json.loads(run.stdout)["faces"], 2)
+
+    def test_bad_input(self):
+        for arguments, part in (
+                (["--plane", "0 0 0 1"], "no normal"),
+                (["--plane", "0 0 1"], "four numbers"),
+                (["--plane", "0 0 1 0 5"], "nothing after them"),
+                (["--plane", "0 0 1 100"], "does not meet the region"),
+                ([], "no plane is given"),
+                (["--plane", "0 0 1 0", "--count", "2", "--json", self.path("a.json")], "--count"),
+                (["--plane", "0 0 1 0", "--region", "box 0 1 0 1"], "six numbers"),
+                (["--plane", "0 0 1 0", "--region", "halfspaces (1,0,0,0)"], "not bounded"),
+                (["--plane", "0 0 1 0", "--region", "0 1 0 1"], "region of space")):
+            torus = self.TORUS[:2] if "--region" in arguments else self.TORUS
+            run = encase("slice", *torus, *arguments)
+            self.assertEqual(run.returncode, 1, arguments)
+            self.assertIn(part, run.stderr)
+            self.assertEqual(run.stdout, "")
+        self.assertEqual(encase("slice", "missing.surfaces", "--plane", "0 0 1 0").returncode, 2)
 
 
 class Random(CommandTest):

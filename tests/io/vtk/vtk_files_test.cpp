@@ -335,5 +335,33 @@ TEST_F(VtkFiles, AreAbsentAfterAFailure) {
   EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), fs::directory_iterator()), 1);
 }
 
+TEST_F(VtkFiles, PlaceSlicesInSpace) {
+  const auto x = Polynomial<3>::variable(0), y = Polynomial<3>::variable(1),
+             z = Polynomial<3>::variable(2);
+  const std::vector<NamedSurface> ball{
+      {"ball", x * x + y * y + z * z - Polynomial<3>::constant(1)}};
+  const Polyhedron cube = make_box({-2, -2, -2}, {2, 2, 2}).value();
+  std::vector<Slice> slices;
+  for (const auto& plane : parallel_planes(cube, {1, 2, 3}, 3))
+    slices.push_back(slice(ball, cube, plane).value());
+  ASSERT_FALSE(write_vtk(slices[1], path("one")));
+  vtkPolyData* curves = read("one/result/curves.vtp");
+  ASSERT_GT(curves->GetNumberOfPoints(), 8);
+  for (vtkIdType k = 0; k < curves->GetNumberOfPoints(); ++k) {
+    double p[3];
+    curves->GetPoint(k, p);
+    EXPECT_NEAR(p[0] + 2 * p[1] + 3 * p[2], 0, 1e-12);
+    EXPECT_NEAR(p[0] * p[0] + p[1] * p[1] + p[2] * p[2], 1, 1e-3);
+  }
+  EXPECT_NE(text(path("one/result.vtm")).find("Name=\"plane\""), std::string::npos);
+  ASSERT_FALSE(write_vtk(slices, path("three")));
+  const std::string series = text(path("three/slices.pvd"));
+  for (const char* name : {"slice_000", "slice_001", "slice_002"}) {
+    EXPECT_NE(series.find(name), std::string::npos);
+    EXPECT_TRUE(fs::exists(path("three/" + std::string(name) + "/result.vtm")));
+  }
+  EXPECT_TRUE(write_vtk(slices, path("missing/three")));
+}
+
 }  // namespace
 }  // namespace encase
