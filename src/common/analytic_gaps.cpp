@@ -15,7 +15,7 @@ constexpr int kDegree = 3;             // of the models that tell
 constexpr std::size_t kFew = 128;      // boxes along a line are not halved beyond this number
 constexpr std::size_t kMany = 4096;    // nor are any others
 constexpr double kLineGrowth = 2.6;    // by which there are more of them on an area
-constexpr double kSmallest = 0x1p-40;  // part of the root's width
+constexpr double kSmallest = 0x1p-30;  // part of the root's width
 constexpr std::size_t kFewGathered = 40;
 constexpr int kGrid = 16;
 

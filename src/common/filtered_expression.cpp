@@ -53,13 +53,13 @@ template <int K, class Number>
 struct FilteredExpression<D>::Workspace {
   TaylorArithmetic<K, Number> arithmetic;
   std::vector<TaylorModel<K, Number>> places;
-  std::array<Number, D> origin{};
-  std::array<std::array<Number, K>, D> direction{};
+  std::array<Number, D> origin;
+  std::array<std::array<Number, K>, D> direction;
   Point<D> error{};  ///< of all of a coordinate's numbers together
 
-  Workspace() requires(std::is_same_v<Number, double>) = default;
-  explicit Workspace(int bits) requires(!std::is_same_v<Number, double>)
-      : origin(filled<D>(Number(bits))), direction(filled<D>(filled<K>(Number(bits)))) {}
+  Workspace()
+      : origin(filled<D>(make_number<Number>(53))),
+        direction(filled<D>(filled<K>(make_number<Number>(53)))) {}
 
   template <std::size_t N, class Value>
   static std::array<Value, N> filled(const Value& value) {
@@ -70,6 +70,10 @@ struct FilteredExpression<D>::Workspace {
   }
 
   void prepare(int degree, int bits, bool at_point, int count) {
+    if (bits != arithmetic.bits()) {
+      origin = filled<D>(make_number<Number>(bits));
+      direction = filled<D>(filled<K>(make_number<Number>(bits)));
+    }
     arithmetic.prepare(degree, bits, at_point);
     if (places.size() < static_cast<std::size_t>(count))
       places.resize(static_cast<std::size_t>(count));
@@ -255,7 +259,7 @@ const TaylorModel<D, double>& FilteredExpression<D>::model(const Point<D>& cente
     return run<D, double>(workspace);
   }
   ++kernel.mpfr_expansions;
-  Workspace<D, Mpfr> workspace(mpfr_bits(bits));
+  thread_local Workspace<D, Mpfr> workspace;
   workspace.prepare(degree, mpfr_bits(bits), false, places_);
   place(workspace);
   thread_local TaylorModel<D, double> rounded;
@@ -324,13 +328,8 @@ void FilteredExpression<D>::restrict_in(const SegmentChart& segment, int bits,
       make_net<1>(rounded, kLineDegree, net);
     }
   };
-  if constexpr (std::is_same_v<Number, double>) {
-    thread_local Workspace<1, double> workspace;
-    make(workspace);
-  } else {
-    Workspace<1, Mpfr> workspace(bits);
-    make(workspace);
-  }
+  thread_local Workspace<1, Number> workspace;
+  make(workspace);
 }
 
 template <int D>
@@ -365,7 +364,7 @@ typename FilteredExpression<D>::Value FilteredExpression<D>::value_at(
     thread_local Workspace<D, double> workspace;
     return value(workspace);
   }
-  Workspace<D, Mpfr> workspace(bits);
+  thread_local Workspace<D, Mpfr> workspace;
   return value(workspace);
 }
 

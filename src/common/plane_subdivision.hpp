@@ -298,6 +298,10 @@ int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
   if (has_gaps_)
     if (const auto token = token_at_gap(node)) return *token;
   if (!provide_net(node)) return node.excluded ? cover::kExcluded : wider_axis(node.box);
+  if (has_gaps_)
+    for (int i = 0; i < N; ++i)
+      if (polynomials_[i]->wants_smaller(*node.tile[i]) && !tells(node.net, i))
+        return wider_axis(node.box);
   return visit(node);
 }
 
@@ -353,6 +357,20 @@ inline bool coarse(const CubicSystem& system, int level) {
       return true;
   }
   return false;
+}
+
+/// Whether the sign of an expression is proved, so that its slopes need not be known better.
+inline bool is_settled(const TiledFunction& f, const Patch& patch) {
+  return !f.polynomial().is_polynomial() && patch.sign().has_value();
+}
+inline bool is_settled(const TiledFunction& f, const CubicSource& source) {
+  return !f.polynomial().is_polynomial() && source.has_sign();
+}
+
+/// Whether a net says anything of a function.
+inline bool tells(const Patch& patch, int) { return patch.radius < 0.25 * patch.magnitude(); }
+inline bool tells(const CubicSystem& system, int i) {
+  return system.radius[i] < 0.25 * system.magnitude(i);
 }
 
 /// Makes the node's net where it is missing or too coarse; false if there is none, because the box
@@ -455,6 +473,7 @@ bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile
     *used = local_tile(node, i, bits);
     make(**used);
     if (!coarse(*net, node.level) || polynomials_[i]->wants_smaller(**used) ||
+        is_settled(*polynomials_[i], *net) ||
         (bits > Kernel::kDoubleBits && !(net->radius < 0.5 * before)))
       break;
   }
