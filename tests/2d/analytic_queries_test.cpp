@@ -138,6 +138,9 @@ TEST(AnalyticLocate, ACrossingOnTheBoundaryIsLeftOpen) {
   mutant.undecided.clear();
   EXPECT_NE(text(verify(mutant)).find("The location of crossing"), std::string::npos);
   mutant = e;
+  mutant.undecided[0].box = {{0.5, 0.875}, {0.625, 0.9375}};
+  EXPECT_NE(text(verify(mutant)).find("The location of crossing"), std::string::npos);
+  mutant = e;
   mutant.undecided[0].curves = {0};
   EXPECT_NE(text(verify(mutant)).find("The location of crossing"), std::string::npos);
   mutant = e;

@@ -262,7 +262,7 @@ TEST(Verify, ObjectsToListsThatAreNotWellFormed) {
   expect_objection(
       n, [](auto& m) { m.degenerate[0].box.lo[0] = std::nan(""); }, "has a bad box");
   expect_objection(
-      n, [](auto& m) { m.degenerate[0].kind = static_cast<Unresolved::Kind>(7); }, "valid kind");
+      n, [](auto& m) { m.degenerate[0].kind = static_cast<Unresolved::Kind>(99); }, "valid kind");
   expect_objection(
       n,
       [](auto& m) {
