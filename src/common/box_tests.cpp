@@ -328,14 +328,18 @@ template <int D>
 std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box, Kernel& kernel) {
   thread_local Bernstein<D> net;
   if (f.is_polynomial()) return sign_by_net(f, box, kernel, &net);
-  // Of an expression on a smaller box nets tell more.
-  constexpr int kMostParts = 256;
+  // Of an expression on a smaller box nets tell more. (Where it is not analytic none ever will.)
+  constexpr int kMostHalvings = 8;
+  struct Part {
+    Box<D> box;
+    int halvings = 0;
+  };
   std::optional<Sign> sign;
-  std::vector<Box<D>> parts{box};
-  for (int visited = 0; !parts.empty(); ++visited) {
-    const Box<D> part = parts.back();
+  std::vector<Part> parts{{box}};
+  while (!parts.empty()) {
+    const Part part = parts.back();
     parts.pop_back();
-    const auto here = sign_by_net(f, part, kernel, &net);
+    const auto here = sign_by_net(f, part.box, kernel, &net);
     if (here && sign && *here != *sign) return std::nullopt;
     if (here) {
       sign = here;
@@ -345,14 +349,17 @@ std::optional<Sign> sign_on_box(const FilteredFunction<D>& f, const Box<D>& box,
     const bool known = std::isfinite(net.radius);
     int axis = 0;
     for (int i = 1; i < D; ++i)
-      if (known ? variation(net, i) > variation(net, axis) : part.width(i) > part.width(axis))
+      if (known ? variation(net, i) > variation(net, axis)
+                : part.box.width(i) > part.box.width(axis))
         axis = i;
-    const double middle = part.center()[axis];
-    if (visited == kMostParts || !corners_agree(net, &sign) || !(part.lo[axis] < middle) ||
-        !(middle < part.hi[axis]))
+    const double middle = part.box.center()[axis];
+    if (part.halvings == kMostHalvings || !corners_agree(net, &sign) ||
+        !(part.box.lo[axis] < middle) || !(middle < part.box.hi[axis]))
       return std::nullopt;
-    parts.insert(parts.end(), {part, part});
-    parts[parts.size() - 2].lo[axis] = parts.back().hi[axis] = middle;
+    for (const bool upper : {true, false}) {
+      parts.push_back({part.box, part.halvings + 1});
+      (upper ? parts.back().box.lo : parts.back().box.hi)[axis] = middle;
+    }
   }
   return sign;
 }
