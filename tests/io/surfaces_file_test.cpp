@@ -39,18 +39,18 @@ TEST(SurfacesFile, RegionsMayBeHalfSpaces) {
 TEST(SurfacesFile, JsonSaysTheSame) {
   const SurfacesFile file =
       read_surfaces(R"({"surfaces": [{"name": "a", "terms": [[1, 1, 1, "1/2"], [0, 0, 0, -1]]},
-                        {"expr": "z = exp(x)"}], "region": [0, 1, 0, 1, 0, "3/2"]
+                        {"expr": "z = x exp(y) + 1"}], "region": [0, 1, 0, 1, 0, "3/2"]
 })",
                     "file")
           .value();
-EXPECT_EQ(file.surfaces[0].function.polynomial(), written::polynomial<3>("x y z/2 - 1"));
-EXPECT_EQ(file.surfaces[1].name, "s1");
-EXPECT_EQ(file.region->corners.back(), (RationalPoint<3>{1, 1, Rational(3, 2)}));
-const auto halves = read_surfaces(
-    R"({"surfaces": [{"expr": "x"}], "region": {"halfspaces":
+  EXPECT_EQ(file.surfaces[0].function.polynomial(), written::polynomial<3>("x y z/2 - 1"));
+  EXPECT_EQ(file.surfaces[1].name, "s1");
+  EXPECT_EQ(file.region->corners.back(), (RationalPoint<3>{1, 1, Rational(3, 2)}));
+  const auto halves = read_surfaces(
+      R"({"surfaces": [{"expr": "x"}], "region": {"halfspaces":
           [[-1,0,0,0], [0,-1,0,0], [0,0,-1,0], [1,1,1,-2]]}})",
-    "file");
-EXPECT_EQ(halves.value().region->corners.size(), 4u);
+      "file");
+  EXPECT_EQ(halves.value().region->corners.size(), 4u);
 }
 
 TEST(SurfacesFile, ErrorsNameTheirPlace) {
