@@ -162,8 +162,7 @@ Status Encaser::check_expression(const NamedCurve& curve) const {
     return bad_input("curve '" + curve.name +
                      "' is no polynomial: it can be encased in a bounded region, not in the plane");
   if (result_.perturbation > 0)
-    return bad_input("curve '" + curve.name +
-                     "' is no polynomial: only those can be perturbed");
+    return bad_input("curve '" + curve.name + "' is no polynomial: only those can be perturbed");
   return std::nullopt;
 }
 

@@ -194,7 +194,7 @@ TEST(Analytic, WhatIsNoCurveIsRefused) {
   EXPECT_EQ(message(sin(x()) - y(), plane, 0),
             "curve 'f' is no polynomial: it can be encased in a bounded region, not in the plane");
   EXPECT_EQ(message(sin(x()) - y(), encased::square(), 1e-9),
-            "curve 'f' is no polynomial: it has no coefficients to be perturbed");
+            "curve 'f' is no polynomial: only those can be perturbed");
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ endif()
 foreach(component IN LISTS COMPONENTS)
   set(project ${WORK_DIR}/${component})
   file(WRITE ${project}/main.cpp "#include <encase/${component}.hpp>
-auto function = &encase::write_${component};
+encase::Status written(const encase::Encasement& e) { return encase::write_${component}(e, \"\"); }
+auto function = &written;
 int main() { return function == nullptr; }
 ")
   file(WRITE ${project}/CMakeLists.txt "cmake_minimum_required(VERSION 3.20)
