@@ -5,6 +5,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "common/point_enclosures.hpp"
+
 namespace encase {
 namespace {
 
@@ -434,15 +436,28 @@ template <int D, class Number>
 void TaylorArithmetic<D, Number>::exp(Model& a, Model* r) {
   if (!a.exists()) return r->claim_nothing(a.undefined);
   const double rest = rest_norm(a);
-  Number next = rounded(a.c[0], [](mpfr_ptr to, mpfr_srcptr x) { mpfr_exp(to, x, MPFR_RNDN); });
-  const double value = at_least(next) * kUp + kUnderflow;
+  Number next = number(0);
+  double error = 0;  // of this number, where it is not correctly rounded
+  bool known = false;
+  if constexpr (std::is_same_v<Number, double>) {
+    known = point::can_exp(a.c[0]);
+    if (known) {
+      const Interval enclosure = point::exp(a.c[0]);
+      next = enclosure.mid();
+      error = enclosure.width() * kUp;
+    }
+  }
+  if (!known)
+    next = rounded(a.c[0], [](mpfr_ptr to, mpfr_srcptr x) { mpfr_exp(to, x, MPFR_RNDN); });
+  const double value = (at_least(next) + error) * kUp + kUnderflow;
   std::array<double, Model::kMaxDegree + 1> relative;
   for (int k = 0; k <= max_degree_; ++k) {
     series_[static_cast<std::size_t>(k)] = next;
     relative[static_cast<std::size_t>(k)] = k + 1;
     divide_by(next, k + 1);
   }
-  compose(a, rest, exponential_tail(rest, max_degree_) * value * kUp, relative.data(), r);
+  const double tail = exponential_tail(rest, max_degree_) * value * kUp;
+  compose(a, rest, tail + error * exponential_tail(rest, -1) * kUp, relative.data(), r);
 }
 
 template <int D, class Number>
@@ -467,6 +482,32 @@ void TaylorArithmetic<D, Number>::log(Model& a, Model* r) {
   compose(a, rest, geometric_tail(rest / least * kUp, max_degree_), relative.data(), r);
 }
 
+/// The sine, and the cosine, of a number (or the hyperbolic ones), each within `error` of what is
+/// within half a unit in the last place of the exact one.
+template <int D, class Number>
+Number TaylorArithmetic<D, Number>::sine_and_cosine(const Number& of, bool circular, Number* cosine,
+                                                    double* error) const {
+  if constexpr (std::is_same_v<Number, double>) {
+    if (circular && std::fabs(of) <= point::kLargestReduced) {
+      const point::Reduced reduced = point::reduce(of);
+      const Interval s = point::sine(reduced, 0), c = point::sine(reduced, 1);
+      *cosine = c.mid();
+      *error = std::max(s.width(), c.width()) * kUp;
+      return s.mid();
+    }
+  }
+  return rounded(of, [&](mpfr_ptr to, mpfr_srcptr x) {
+    thread_local Mpfr other(53);
+    if (mpfr_get_prec(other.get()) != mpfr_get_prec(to)) other = Mpfr(bits_);
+    circular ? mpfr_sin_cos(to, other.get(), x, MPFR_RNDN)
+             : mpfr_sinh_cosh(to, other.get(), x, MPFR_RNDN);
+    if constexpr (std::is_same_v<Number, double>)
+      *cosine = mpfr_get_d(other.get(), MPFR_RNDN);
+    else
+      *cosine = other;
+  });
+}
+
 /// sin, cos, sinh, cosh: their derivatives are themselves and another one, up to signs.
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::entire(Model& a, Kind kind, Model* r) {
@@ -474,16 +515,8 @@ void TaylorArithmetic<D, Number>::entire(Model& a, Kind kind, Model* r) {
   const double rest = rest_norm(a);
   const bool circular = kind == Kind::Sin || kind == Kind::Cos;
   Number cosine = number(0);
-  const Number sine = rounded(a.c[0], [&](mpfr_ptr to, mpfr_srcptr x) {
-    thread_local Mpfr other(53);
-    if (mpfr_get_prec(other.get()) != mpfr_get_prec(to)) other = Mpfr(bits_);
-    circular ? mpfr_sin_cos(to, other.get(), x, MPFR_RNDN)
-             : mpfr_sinh_cosh(to, other.get(), x, MPFR_RNDN);
-    if constexpr (std::is_same_v<Number, double>)
-      cosine = mpfr_get_d(other.get(), MPFR_RNDN);
-    else
-      cosine = other;
-  });
+  double error = 0;  // of the sine and of the cosine, where they are not correctly rounded
+  const Number sine = sine_and_cosine(a.c[0], circular, &cosine, &error);
   Number values[2] = {sine, cosine};
   bool negative[2] = {false, false};
   if (kind == Kind::Cos || kind == Kind::Cosh) std::swap(values[0], values[1]);
@@ -501,7 +534,8 @@ void TaylorArithmetic<D, Number>::entire(Model& a, Kind kind, Model* r) {
     divide_by(inverse_factorial, k + 1);
   }
   const double most = circular ? 1 : at_least(cosine) * kUp;
-  compose(a, rest, exponential_tail(rest, max_degree_) * most * kUp, relative.data(), r);
+  const double tail = exponential_tail(rest, max_degree_) * most * kUp;
+  compose(a, rest, tail + error * exponential_tail(rest, -1) * kUp, relative.data(), r);
 }
 
 template <int D, class Number>

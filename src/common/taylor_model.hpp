@@ -108,6 +108,7 @@ class TaylorArithmetic {
   void measure(Model* r) const;
   double rest_norm(const Model& a) const;
   void compose(Model& a, double rest, double tail, const double* relative, Model* r);
+  Number sine_and_cosine(const Number& of, bool circular, Number* cosine, double* error) const;
   void entire(Model& a, Kind kind, Model* r);
   void choose(const Model& a, const Model& b, bool smaller, Model* r) const;
 
