@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "encase/space_arrangement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "flood_fill.hpp"
+#include "written.hpp"
+
+namespace encase {
+namespace {
+
+struct Scene {
+  std::string name;
+  std::vector<std::string> surfaces;
+  std::string box;  ///< half its side
+  int regions;
+};
+
+std::ostream& operator<<(std::ostream& out, const Scene& scene) { return out << scene.name; }
+
+struct Arranged {
+  SurfaceEncasement encasement;
+  SpaceArrangement arrangement;
+};
+
+Arranged arranged(const std::vector<std::string>& texts, const Rational& half) {
+  std::vector<NamedSurface> surfaces;
+  for (const std::string& text : texts)
+    surfaces.push_back({"s" + std::to_string(surfaces.size()), written::polynomial<3>(text)});
+  auto encasement = encase(surfaces, make_box({-half, -half, -half}, {half, half, half}).value());
+  EXPECT_TRUE(encasement);
+  EXPECT_EQ(encasement.value().outcome, Outcome::Certified);
+  auto arrangement = arrange(encasement.value());
+  EXPECT_TRUE(arrangement) << arrangement.error().message;
+  return {std::move(encasement).value(), std::move(arrangement).value()};
+}
+
+const std::string kSphere = "x^2+y^2+z^2-1";
+const std::string kTorus = "(x^2+y^2+z^2+3)^2-16*(x^2+y^2)";  // radii 2 and 1
+
+class SpaceScenes : public testing::TestWithParam<Scene> {};
+
+/// The regions, and which border on which, are those of a flood fill of signs on a grid.
+TEST_P(SpaceScenes, AgreeWithAFloodFill) {
+  const Scene& scene = GetParam();
+  Rational half;
+  ASSERT_TRUE(parse_rational(scene.box.c_str(), &half));
+  const Arranged a = arranged(scene.surfaces, half);
+  if (scene.regions > 0) {
+    EXPECT_EQ(static_cast<int>(a.arrangement.regions.size()), scene.regions);
+  }
+  std::vector<Polynomial<3>> polynomials;
+  for (const Surface& surface : a.encasement.surfaces)
+    polynomials.push_back(surface.function.polynomial());
+  const FloodFill fill(polynomials, nearest_double(half), 200);
+  const RegionLocator locator(a.encasement, a.arrangement);
+  // Every part of the grid lies in one region, and no region is met by two.
+  std::vector<int> region_of(fill.parts().size(), -1);
+  std::map<int, std::size_t> part_of;
+  std::size_t thin = 0;
+  for (std::size_t k = 0; k < fill.parts().size(); ++k) {
+    const auto& part = fill.parts()[k];
+    const auto place = locator.locate(part.deepest);
+    ASSERT_EQ(place.kind, RegionLocator::Place::Kind::Region);
+    region_of[k] = place.region;
+    EXPECT_EQ(a.arrangement.regions[place.region].signs, part.signs);
+    const bool fresh = part_of.emplace(place.region, k).second;
+    if (part.depth < 2)
+      ++thin;  // a grain of the grid, where a region is thin
+    else
+      EXPECT_TRUE(fresh) << "region " << place.region << " is met by two parts of the grid";
+  }
+  std::size_t missed = 0;
+  for (std::size_t r = 0; r < a.arrangement.regions.size(); ++r)
+    missed += part_of.count(static_cast<int>(r)) == 0;
+  EXPECT_LE(missed, 0u) << "regions that the grid does not see";
+  RecordProperty("thin", static_cast<int>(thin));
+  for (const auto& [pair, count] : fill.contacts()) {
+    if (count < 4) continue;
+    const int r = region_of[pair.first], s = region_of[pair.second];
+    const std::vector<int> beside = a.arrangement.neighbours(r);
+    EXPECT_TRUE(r == s || std::count(beside.begin(), beside.end(), s) == 1)
+        << "regions " << r << " and " << s << " share " << count << " sides of voxels";
+  }
+  std::set<std::pair<int, int>> seen;
+  for (const auto& [pair, count] : fill.contacts()) {
+    seen.emplace(region_of[pair.first], region_of[pair.second]);
+    seen.emplace(region_of[pair.second], region_of[pair.first]);
+  }
+  for (std::size_t r = 0; r < a.arrangement.regions.size(); ++r)
+    for (const int s : a.arrangement.neighbours(static_cast<int>(r)))
+      EXPECT_TRUE(seen.count({static_cast<int>(r), s})) << r << " and " << s;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SpaceScenes,
+    testing::Values(Scene{"sphere", {kSphere}, "2", 2}, Scene{"torus", {kTorus}, "4", 2},
+                    Scene{"two_spheres", {kSphere, "(x-1)^2+y^2+z^2-1"}, "3", 4},
+                    Scene{"sphere_and_torus", {"x^2+y^2+(z-1/2)^2-4", kTorus}, "4", 0},
+                    Scene{"bubble_between_planes",
+                          {"x-1/100", "y-1/50", "(x+1/7)^2+(y+1/9)^2+z^2-1/2"},
+                          "2",
+                          8},
+                    Scene{"four_spheres",
+                          {kSphere, "(x-1)^2+y^2+z^2-1", "(x-1/2)^2+(y-4/5)^2+z^2-1",
+                           "(x-1/2)^2+(y-1/4)^2+(z-4/5)^2-1"},
+                          "3",
+                          16}),
+    [](const auto& scene) { return scene.param.name; });
+
+TEST(SpaceArrangement, ComponentsHaveTheEulerCharacteristicOfTheirSurface) {
+  const Arranged sphere = arranged({kSphere}, 2);
+  ASSERT_EQ(sphere.arrangement.components.size(), 1u);
+  EXPECT_TRUE(sphere.arrangement.components[0].closed);
+  EXPECT_EQ(sphere.arrangement.components[0].euler, 2);
+  const Arranged torus = arranged({kTorus}, 4);
+  ASSERT_EQ(torus.arrangement.components.size(), 1u);
+  EXPECT_TRUE(torus.arrangement.components[0].closed);
+  EXPECT_EQ(torus.arrangement.components[0].euler, 0);
+  // A tube has two boundary loops, and so have two discs.
+  const Arranged tube = arranged({"x^2+y^2-1"}, 2);
+  ASSERT_EQ(tube.arrangement.components.size(), 1u);
+  EXPECT_FALSE(tube.arrangement.components[0].closed);
+  EXPECT_EQ(tube.arrangement.components[0].euler, 0);
+  const Arranged sheets = arranged({"z^2-x^2/9-y^2/9-1"}, 2);
+  ASSERT_EQ(sheets.arrangement.components.size(), 2u);
+  for (const auto& sheet : sheets.arrangement.components) EXPECT_EQ(sheet.euler, 1);
+}
+
+TEST(SpaceArrangement, ACurvedSheetMeetsARegionOfEqualSignsTwice) {
+  // The plane cuts the inside of the parabolic cylinder z = x^2 - 1, below 0: outside of it the
+  // plane's lower side has two regions with the same signs.
+  const Arranged a = arranged({"z-x^2+1", "z+1/2"}, 2);
+  std::map<std::vector<Sign>, int> count;
+  for (const auto& region : a.arrangement.regions) ++count[region.signs];
+  EXPECT_EQ(a.arrangement.regions.size(), 5u);
+  EXPECT_EQ((count[{Sign::Negative, Sign::Positive}]), 2);
+  EXPECT_EQ((count[{Sign::Negative, Sign::Negative}]), 1);
+}
+
+TEST(SpaceArrangement, PointsAreLocatedByTheirSigns) {
+  const Arranged a = arranged({kSphere, "z-x^2+1", "x+y+z"}, 2);
+  const RegionLocator locator(a.encasement, a.arrangement);
+  std::mt19937_64 random(7);
+  std::uniform_int_distribution<int> coordinate(-1999, 1999);
+  for (int k = 0; k < 500; ++k) {
+    RationalPoint<3> point;
+    for (Rational& c : point) c = Rational(coordinate(random), 1000);
+    const auto place = locator.locate(point);
+    ASSERT_EQ(place.kind, RegionLocator::Place::Kind::Region);
+    for (std::size_t s = 0; s < a.encasement.surfaces.size(); ++s) {
+      const Rational value = a.encasement.surfaces[s].function.polynomial()(point);
+      EXPECT_EQ(a.arrangement.regions[place.region].signs[s], sign_of(sgn(value)));
+    }
+  }
+  EXPECT_EQ(locator.locate({3, 0, 0}).kind, RegionLocator::Place::Kind::Outside);
+  const auto on = locator.locate({Rational(3, 5), Rational(4, 5), 0});
+  EXPECT_EQ(on.kind, RegionLocator::Place::Kind::OnSurface);
+  EXPECT_EQ(on.surfaces, std::vector<int>{0});
+}
+
+}  // namespace
+}  // namespace encase
