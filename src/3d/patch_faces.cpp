@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "common/filtered_function.hpp"
 #include "common/union_find.hpp"
 
 namespace encase {
@@ -27,7 +28,10 @@ Sign FacetTables::sign(int facet, int face, int surface) const {
   for (const int cell : f.cells)
     if (cell >= 0 && e_.cells[cell].signs[surface] != Sign::Zero)
       return e_.cells[cell].signs[surface];
-  return Sign::Zero;
+  // It is constant on the facet's plane.
+  const auto corner = PlaneChart(e_.planes[f.plane].exact()).lift(f.polygon.corners[0]);
+  Kernel kernel;
+  return FilteredFunction<3>(e_.surfaces[surface].function).sign_at(corner, kernel);
 }
 
 Sign FacetTables::sign_along(const FacetEdge& edge, int surface) const {

@@ -146,7 +146,7 @@ TEST(SpaceArrangement, ACurvedSheetMeetsARegionOfEqualSignsTwice) {
 }
 
 TEST(SpaceArrangement, PointsAreLocatedByTheirSigns) {
-  const Arranged a = arranged({kSphere, "z-x^2+1", "x+y+z"}, 2);
+  const Arranged a = arranged({kSphere, "z-x^2+1/2", "x+y+z"}, 2);
   const RegionLocator locator(a.encasement, a.arrangement);
   std::mt19937_64 random(7);
   std::uniform_int_distribution<int> coordinate(-1999, 1999);
