@@ -87,34 +87,6 @@ bool within(const Box<3>& box, const HalfSpace& half_space) {
   return value.hi < 0;
 }
 
-/// The planes of the sides of every leaf's box, as BoxPartition's root_planes.
-std::vector<std::array<int, 6>> leaf_bounds(const BoxPartition& partition, std::size_t leaves) {
-  const std::vector<int> first = first_equal_planes(partition.planes);
-  std::vector<std::array<int, 6>> of_leaf(leaves, partition.root_planes);
-  std::vector<std::pair<int, std::array<int, 6>>> stack{
-      {partition.history.empty() ? ~0 : 0, partition.root_planes}};
-  while (!stack.empty()) {
-    const auto [node, bounds] = stack.back();
-    stack.pop_back();
-    if (node < 0) {
-      if (static_cast<std::size_t>(~node) < leaves)
-        of_leaf[static_cast<std::size_t>(~node)] = bounds;
-      continue;
-    }
-    const Split& split = partition.history[static_cast<std::size_t>(node)];
-    const Plane& plane = partition.planes[static_cast<std::size_t>(split.line)];
-    std::size_t axis = 0;
-    while (plane.normal[axis] == 0) ++axis;
-    for (const bool positive : {false, true}) {
-      auto child = std::pair(positive ? split.positive : split.negative, bounds);
-      const bool is_upper = positive == (plane.normal[axis] > 0);
-      child.second[2 * axis + (is_upper ? 0 : 1)] = first[static_cast<std::size_t>(split.line)];
-      stack.push_back(std::move(child));
-    }
-  }
-  return of_leaf;
-}
-
 class PlaceFinder {
  public:
   PlaceFinder(const SolidRegion& region, PlaneCharts& charts) : region_(region), charts_(charts) {}
@@ -127,7 +99,8 @@ class PlaceFinder {
   }
 
   /// Where a leaf meets a side of a region that is no box.
-  void on_side(int side, int leaf, const Box<3>& box, const std::array<int, 6>& bounds) {
+  void on_side(int side, int leaf, const BoundedLeaf& bounded) {
+    const auto& [box, bounds] = bounded;
     const HalfSpace& half_space = region_.polyhedron.sides[static_cast<std::size_t>(side)];
     if (within(box, half_space)) return;
     const PlaneChart& chart = charts_.of(side);
@@ -172,15 +145,14 @@ const PlaneChart& PlaneCharts::of(int plane) {
 }
 
 std::vector<FacetPlace> facet_places(const BoxPartition& partition, const SolidRegion& region,
-                                     const std::vector<Box<3>>& leaf_boxes, PlaneCharts& charts) {
+                                     PlaneCharts& charts) {
   PlaceFinder finder(region, charts);
   for (const LeafContact& contact : leaf_contacts(partition)) finder.between(contact);
   if (region.is_box) return finder.take();
-  const auto bounds = leaf_bounds(partition, leaf_boxes.size());
+  const std::vector<BoundedLeaf> leaves = bounded_leaves(partition);
   for (std::size_t side = 0; side < region.polyhedron.sides.size(); ++side)
-    for (std::size_t leaf = 0; leaf < leaf_boxes.size(); ++leaf)
-      finder.on_side(static_cast<int>(side), static_cast<int>(leaf), leaf_boxes[leaf],
-                     bounds[leaf]);
+    for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
+      finder.on_side(static_cast<int>(side), static_cast<int>(leaf), leaves[leaf]);
   return finder.take();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "3d/leaf_contacts.hpp"
@@ -12,7 +13,7 @@ namespace encase {
 
 /// Where a facet is: a convex polygon in a plane, between two cells or a cell and the outside.
 struct FacetPlace {
-  int plane = -1;  ///< the first of those that are the same
+  int plane = -1;
   std::array<int, 2> cells{-1, -1};
   Box<3> extent;  ///< with the plane it tells the polygon
   Region polygon;
@@ -22,8 +23,7 @@ struct FacetPlace {
 /// A region as cells see it.
 struct SolidRegion {
   Polyhedron polyhedron;
-  Box<3> root;          ///< of the partition: around the polyhedron
-  bool is_box = false;  ///< the polyhedron is the root; its sides are lower x, upper x, ...
+  bool is_box = false;  ///< the partition's root is the polyhedron
 };
 
 /// The charts of planes, each made once.
@@ -40,6 +40,6 @@ class PlaneCharts {
 /// All facets of the cells, which are the parts of the leaves' boxes in the region. In an order
 /// that depends on the partition only.
 std::vector<FacetPlace> facet_places(const BoxPartition& partition, const SolidRegion& region,
-                                     const std::vector<Box<3>>& leaf_boxes, PlaneCharts& charts);
+                                     PlaneCharts& charts);
 
 }  // namespace encase

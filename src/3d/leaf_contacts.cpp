@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "3d/leaf_contacts.hpp"
 
-#include <map>
-#include <tuple>
+#include <utility>
 
 namespace encase {
 
@@ -30,8 +29,7 @@ struct NamedBox {
 
 class ContactFinder {
  public:
-  explicit ContactFinder(const BoxPartition& partition)
-      : p_(partition), first_(first_equal_planes(partition.planes)) {}
+  explicit ContactFinder(const BoxPartition& partition) : p_(partition) {}
 
   std::vector<LeafContact> run() {
     const NamedBox root{p_.root, p_.root_planes};
@@ -46,6 +44,27 @@ class ContactFinder {
     }
     visit(root_node(), root);
     return std::move(contacts_);
+  }
+
+  std::vector<BoundedLeaf> leaves() const {
+    std::vector<BoundedLeaf> result(p_.history.size() + 1);
+    std::vector<std::pair<int, NamedBox>> stack{{root_node(), {p_.root, p_.root_planes}}};
+    while (!stack.empty()) {
+      const auto [node, box] = stack.back();
+      stack.pop_back();
+      if (!is_node(node)) {
+        result[static_cast<std::size_t>(~node)] = {box.box, box.bounds};
+        continue;
+      }
+      const Split& split = p_.history[static_cast<std::size_t>(node)];
+      const int axis = axis_of(p_.planes[static_cast<std::size_t>(split.line)]);
+      for (const bool upper : {false, true}) {
+        NamedBox part = box;
+        part.keep(axis, upper, cut(split, axis), split.line);
+        stack.emplace_back(child(split, axis, upper), part);
+      }
+    }
+    return result;
   }
 
  private:
@@ -71,17 +90,17 @@ class ContactFinder {
   void visit(int node, const NamedBox& box) {
     if (!is_node(node)) return;
     const Split& split = p_.history[static_cast<std::size_t>(node)];
-    const int plane = first_[static_cast<std::size_t>(split.line)];
     const Plane& coefficients = p_.planes[static_cast<std::size_t>(split.line)];
     const int axis = axis_of(coefficients);
     const double at = cut(split, axis);
     for (const bool upper : {false, true}) {
       NamedBox part = box;
-      if (part.keep(axis, upper, at, plane)) visit(child(split, axis, upper), part);
+      if (part.keep(axis, upper, at, split.line)) visit(child(split, axis, upper), part);
     }
     NamedBox rectangle = box;
     rectangle.box.lo[axis] = rectangle.box.hi[axis] = at;
-    touch({plane, axis, coefficients.normal[axis] < 0}, split.negative, split.positive, rectangle);
+    touch({split.line, axis, coefficients.normal[axis] < 0}, split.negative, split.positive,
+          rectangle);
   }
 
   /// The contacts of the leaves of two nodes, on both sides of a plane, that lie in a rectangle.
@@ -97,7 +116,7 @@ class ContactFinder {
         if (axis == side.axis) {
           // Only the child next to the plane touches it.
           if (upper != (second == side.reversed)) continue;
-        } else if (!part.keep(axis, upper, at, first_[static_cast<std::size_t>(split.line)])) {
+        } else if (!part.keep(axis, upper, at, split.line)) {
           continue;
         }
         const int next = child(split, axis, upper);
@@ -111,26 +130,13 @@ class ContactFinder {
   }
 
   const BoxPartition& p_;
-  std::vector<int> first_;
   std::vector<LeafContact> contacts_;
 };
 
 }  // namespace
 
-std::vector<int> first_equal_planes(const std::vector<Plane>& planes) {
-  std::map<std::tuple<double, double, double, double>, int> seen;
-  std::vector<int> first;
-  for (std::size_t k = 0; k < planes.size(); ++k) {
-    const Plane& p = planes[k];
-    const int index = static_cast<int>(k);
-    // Doubles that stand for rationals may be equal where those are not.
-    first.push_back(
-        p.rational
-            ? index
-            : seen.emplace(std::tuple(p.normal[0], p.normal[1], p.normal[2], p.offset), index)
-                  .first->second);
-  }
-  return first;
+std::vector<BoundedLeaf> bounded_leaves(const BoxPartition& partition) {
+  return ContactFinder(partition).leaves();
 }
 
 std::vector<LeafContact> leaf_contacts(const BoxPartition& partition) {

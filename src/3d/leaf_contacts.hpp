@@ -8,7 +8,7 @@
 
 namespace encase {
 
-/// A binary partition of a box by axis-parallel planes, as SpacePartition's.
+/// A binary partition of a box by axis-parallel planes, all different, as SpacePartition's.
 struct BoxPartition {
   const std::vector<Plane>& planes;
   const std::vector<Split>& history;
@@ -25,12 +25,16 @@ struct LeafContact {
   std::array<int, 6> bounds{};        ///< planes of its sides, as BoxPartition's root_planes
 };
 
-/// For every plane the first one that is the same.
-std::vector<int> first_equal_planes(const std::vector<Plane>& planes);
+/// The leaves' boxes, and the planes of their sides as BoxPartition's root_planes.
+struct BoundedLeaf {
+  Box<3> box;
+  std::array<int, 6> bounds{};
+};
+std::vector<BoundedLeaf> bounded_leaves(const BoxPartition& partition);
 
 /// Every pair of leaves whose boxes have a rectangle in common, and every rectangle of a leaf's box
-/// in a side of the root that is a plane. Planes are named by the first one that is the same. In an
-/// order that depends on the partition only. Cost: proportional to what is found, times the depth.
+/// in a side of the root that is a plane. In an order that depends on the partition only. Cost:
+/// proportional to what is found, times the depth.
 std::vector<LeafContact> leaf_contacts(const BoxPartition& partition);
 
 }  // namespace encase
