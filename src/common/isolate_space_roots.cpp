@@ -164,6 +164,7 @@ class SpaceSearch {
     SpaceSystem& frame = frames_[frame_number];
     if (++visited_ % 64 == 0 && !stopped_) stopped_ = limits_.stop && limits_.stop();
     if (stopped_) return settle(part, cover::kUnresolved);
+    if (const int axis = free_axis(part); axis >= 0) return split(part, axis, frame, level);
     sharpen(&part, &frame);
     SpaceVerdict verdict;
     test_system(frame, SpaceRoots::kQuality, &verdict);
@@ -171,10 +172,31 @@ class SpaceSearch {
       return settle(part, cover::kExcluded);
     if (verdict.contracts)
       if (const auto k = root_in(part, verdict.contraction)) return settle(part, *k);
-    int axis = verdict.axis;
-    for (int i = 0; i < 3 && verdict.axis < 0; ++i)
-      if (axis < 0 || part.box.width(i) > part.box.width(axis)) axis = i;
+    int axis = free_axis(part);
+    if (axis < 0) axis = verdict.axis;
+    if (axis < 0) axis = longest_axis(part.box);
     split(part, axis, frame, level);
+  }
+
+  /// An axis across which one of the halves is known to have no zeros, or -1.
+  static int free_axis(const Part& part) {
+    int axis = -1;
+    double least = 2;
+    for (int i = 0; i < 3; ++i) {
+      const double width = part.zeros.hi[i] - part.zeros.lo[i];
+      if ((part.zeros.hi[i] < 0 || part.zeros.lo[i] > 0) && width < least) {
+        least = width;
+        axis = i;
+      }
+    }
+    return axis;
+  }
+
+  static int longest_axis(const Box<3>& box) {
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+      if (box.width(i) > box.width(axis)) axis = i;
+    return axis;
   }
 
   /// Both hold all zeros. False if they have nothing in common.

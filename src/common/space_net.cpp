@@ -17,16 +17,16 @@ namespace encase {
 
 /// The least and greatest numbers of several.
 struct Bounds {
-  double lo = 0, hi = 0;
+  double lo, hi;
 };
 
 /// Three combinations of up to three nets of one count.
 struct Combinations {
   int count = 0;
   int nets = 0;
-  std::array<const double*, 3> rows{};
-  Matrix<3> weight{};           ///< [combination][net]
-  Matrix<3> slope{};            ///< [combination][planes, rows, lanes]: of a linear function
+  std::array<const double*, 3> rows;
+  Matrix<3> weight;             ///< [combination][net]
+  Matrix<3> slope;              ///< [combination][planes, rows, lanes]: of a linear function
   double* result = nullptr;     ///< the combinations' rows, one after the other
   std::array<Bounds, 3> value;  ///< of their coefficients
   std::array<Bounds, 3> rest;   ///< of these less those of the linear function
@@ -300,7 +300,7 @@ class Preconditioned {
   /// about the inverse of theirs, else 0.
   Preconditioned(const SpaceSystem& system, const Matrix<3>& slopes, const Matrix<3>& y,
                  double identity)
-      : system_(system), slopes_(slopes), y_(y), identity_(identity) {
+      : system_(system), identity_(identity) {
     thread_local Buffer buffer;
     double* rows = buffer.rows.data();
     std::array<bool, 3> taken{};
@@ -316,7 +316,8 @@ class Preconditioned {
         group.rows[group.nets] = system.nets[m].rows;
         for (int i = 0; i < 3; ++i) {
           group.weight[i][group.nets] = y[i][m];
-          for (int j = 0; j < 3; ++j) group.slope[i][j] += y[i][m] * slopes[m][j];
+          for (int j = 0; j < 3; ++j)
+            group.slope[i][j] = (group.nets > 0 ? group.slope[i][j] : 0) + y[i][m] * slopes[m][j];
         }
         ++group.nets;
       }
@@ -335,7 +336,7 @@ class Preconditioned {
 
   /// Whether there is no common zero; if there may be one, narrows `zeros` to where.
   bool excludes(Box<3>* zeros) {
-    std::array<Bounds, 3> rest;
+    std::array<Bounds, 3> rest{};
     std::array<double, 3> slack{};
     for (int g = 0; g < group_count_; ++g) {
       Combinations& group = groups_[g];
@@ -349,6 +350,7 @@ class Preconditioned {
           return true;
       }
     }
+    for (const Bounds& b : rest) widest_ = std::max(widest_, b.hi - b.lo);
     // At a zero the linear function, which is `identity` times coordinate i, is what is left with
     // the opposite sign.
     for (int i = 0; i < 3; ++i) {
@@ -364,10 +366,14 @@ class Preconditioned {
     return false;
   }
 
+  /// The widest range of what is left of a combination without its linear function: twice the
+  /// greatest sum of a row of `deviations` at most.
+  double widest() const { return widest_; }
+
   /// Bounds on the distances of the Jacobian of the combinations from `identity` times the identity
   /// matrix, after `excludes`.
   Matrix<3> deviations() {
-    std::array<std::array<Bounds, 3>, 3> slope;  // by variables
+    std::array<std::array<Bounds, 3>, 3> slope{};  // by variables
     Matrix<3> slack{};
     for (int g = 0; g < group_count_; ++g) {
       Combinations& group = groups_[g];
@@ -403,11 +409,11 @@ class Preconditioned {
   };
 
   const SpaceSystem& system_;
-  const Matrix<3>&slopes_, &y_;
   double identity_;
   std::array<double, 3> rounding_{};  ///< of the combinations' coefficients, with the nets' radii
   std::array<Combinations, 3> groups_;
   int group_count_ = 0;
+  double widest_ = 0;
 };
 
 /// Rows that cancel what can be cancelled of a singular matrix, too.
@@ -446,10 +452,12 @@ void test_system(const SpaceSystem& system, double quality, SpaceVerdict* verdic
       for (double& entry : row) entry *= inverse;
   Preconditioned combinations(system, slopes, y, regular ? 1.0 : 0.0);
   verdict->excluded = combinations.excludes(&verdict->zeros);
-  if (verdict->excluded) return;
+  verdict->axis = -1;
+  // Far from a contraction, where it does not pay to look closer.
+  constexpr double kFar = 8;
+  if (verdict->excluded || combinations.widest() > kFar) return;
   const Matrix<3> deviation = combinations.deviations();
   double most = 0;
-  verdict->axis = -1;
   for (int j = 0; j < 3; ++j) {
     double column = 0;
     for (int i = 0; i < 3; ++i) column += deviation[i][j];
