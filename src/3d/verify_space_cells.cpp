@@ -17,15 +17,9 @@ namespace {
 
 BoxPartition partition_of(const SpaceClaims& claims) {
   BoxPartition partition{
-      claims.result.planes, claims.result.history, claims.region.root, {-1, -1, -1, -1, -1, -1}};
+      claims.result.planes, claims.result.history, claims.root, {-1, -1, -1, -1, -1, -1}};
   if (claims.region.is_box) partition.root_planes = {0, 1, 2, 3, 4, 5};
   return partition;
-}
-
-std::vector<Box<3>> boxes_of(const std::vector<SpaceCell>& cells) {
-  std::vector<Box<3>> boxes;
-  for (const SpaceCell& cell : cells) boxes.push_back(cell.box);
-  return boxes;
 }
 
 bool touches_certified(const SpaceClaims& claims, const Facet& facet) {
@@ -106,7 +100,7 @@ bool check_facet_points(SpaceClaims& claims) {
 bool check_facets(SpaceClaims& claims) {
   const SurfaceEncasement& e = claims.result;
   const std::vector<FacetPlace> places =
-      facet_places(partition_of(claims), claims.region, boxes_of(e.cells), claims.charts);
+      facet_places(partition_of(claims), claims.region, claims.charts);
   if (!claims.require(places.size() == e.facets.size(),
                       "The facets are not as many as the cells of the partition have."))
     return false;
@@ -265,9 +259,11 @@ void check_space_cells(SpaceClaims& claims) {
     directions.emplace_back(direction.value_or(Polynomial<3>()));
   }
   const FacetComplex complex{claims.surfaces, e.planes, facets, claims.charts, claims.kernel};
-  const ReadingScene scene{
-      complex,   e.facet_points, e.triple_points, e.graph_certificates, e.pair_certificates,
-      directions};
+  std::vector<char> inside;
+  for (const TriplePoint& point : e.triple_points) inside.push_back(point.cell >= 0 ? 1 : 0);
+  const ReadingScene scene{complex,   e.facet_points,       e.triple_points,
+                           inside,    e.graph_certificates, e.pair_certificates,
+                           directions};
   CellChecker checker(claims, scene);
   for (std::size_t k = 0; k < e.cells.size() && !claims.full(); ++k) checker.check(k);
 }

@@ -56,6 +56,7 @@ struct SpaceClaims {
   VerifyOptions options;
   std::vector<FilteredFunction<3>> surfaces;
   SolidRegion region;            ///< found by check_space_regions
+  Box<3> root;                   ///< around it; likewise
   std::vector<Box<3>> leaf_box;  ///< of every cell, from the history; by replay_space_history
   PlaneCharts charts;
   Kernel kernel;

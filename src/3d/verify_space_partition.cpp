@@ -83,8 +83,8 @@ bool check_space_regions(SpaceClaims& claims) {
                            " of the region used.") &&
             sides;
   claims.region.polyhedron = used;
-  claims.region.root = used.bounding_box();
-  claims.region.is_box = is_box(used, claims.region.root);
+  claims.root = used.bounding_box();
+  claims.region.is_box = is_box(used, claims.root);
   return sides;
 }
 
@@ -125,7 +125,7 @@ bool replay_space_history(SpaceClaims& claims) {
     int depth;
     Box<3> box;
   };
-  std::vector<Node> stack{{e.history.empty() ? ~0 : 0, 0, claims.region.root}};
+  std::vector<Node> stack{{e.history.empty() ? ~0 : 0, 0, claims.root}};
   bool cuts = true, depths = true;
   while (!stack.empty()) {
     const Node node = stack.back();
@@ -200,17 +200,11 @@ void check_certificates(SpaceClaims& claims) {
 
 namespace {
 
-std::vector<Plane> sides_of(const SpaceClaims& claims) {
-  return {claims.result.planes.begin(),
-          claims.result.planes.begin() +
-              static_cast<std::ptrdiff_t>(claims.result.region_used.sides.size())};
-}
-
 void check_isolation(SpaceClaims& claims, const std::string& name, const System<3>& system,
                      RootIsolation<3> isolation) {
   isolation.unresolved = leaves<3>(isolation.root_box, isolation.tokens, cover::kUnresolved);
-  claims.include(name, verify_isolation(system, claims.region.root, sides_of(claims), isolation,
-                                        claims.options));
+  claims.include(name, verify_isolation(system, claims.root, claims.region.polyhedron.sides,
+                                        isolation, claims.options));
 }
 
 void check_critical_points(SpaceClaims& claims) {
