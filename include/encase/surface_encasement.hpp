@@ -110,11 +110,13 @@ struct Facet {
   std::array<int, 2> cells{-1, -1};  ///< on the plane's negative and positive side; -1: outside
   Region polygon;                    ///< in PlaneChart's coordinates of the plane
   std::vector<int> side_planes;      ///< the plane that meets this one in the polygon's side k
-  std::vector<int> surfaces;         ///< those that may meet it: absent in neither cell
+  /// Those that may meet it: absent in neither cell, and not constant on the plane. None between
+  /// cells that are not certified.
+  std::vector<int> surfaces;
   /// The curves in which they meet it; curve k is that of surfaces[k] and has the same sign.
   /// Certified, and of the polygon exactly (region_used = polygon). Empty if `surfaces` is.
   Encasement encasement;
-  Arrangement arrangement;  ///< of the encasement
+  Arrangement arrangement;  ///< of the encasement; without boundary points (ArrangeOptions)
   /// For each vertex of the arrangement the index in `facet_points`; -1 for the polygon's corners.
   std::vector<int> points;
 };

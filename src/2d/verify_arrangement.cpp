@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -32,6 +33,13 @@ void check_list(Claims& claims, const char* name, const std::vector<T>& stored,
                    " is not that of the encasement.");
 }
 
+/// Whether it was made with them (ArrangeOptions).
+bool has_boundary_points(const Arrangement& arrangement) {
+  return std::any_of(arrangement.vertices.begin(), arrangement.vertices.end(), [](const auto& v) {
+    return v.kind == Arrangement::Vertex::Kind::OnBoundary && v.point != Point<2>{};
+  });
+}
+
 }  // namespace
 }  // namespace verification
 
@@ -42,7 +50,7 @@ Verification verify(const Encasement& encasement, const Arrangement& arrangement
   Claims claims(facts);
   claims.report = verify(encasement, options);
   if (!claims.report.ok()) return claims.report;
-  const Result<Arrangement> arranged = arrange(encasement);
+  const Result<Arrangement> arranged = arrange(encasement, {has_boundary_points(arrangement)});
   if (!claims.require(arranged.ok(), "An arrangement is stored, but the result has none."))
     return claims.report;
   const Arrangement& right = arranged.value();

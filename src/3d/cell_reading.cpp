@@ -58,10 +58,10 @@ class FieldLines {
   Rational spread_;
 };
 
-/// A cut between two loops that lie apart along a coordinate, where they are farthest apart.
-std::optional<CutHint> cut_between(const std::vector<BoundaryLoop>& loops,
+/// A cut through the smallest loop of a surface with holes in the cell: it opens one of them.
+std::optional<CutHint> cut_through(const std::vector<BoundaryLoop>& loops,
                                    const std::vector<FacetPoint>& points) {
-  std::vector<Box<3>> boxes;
+  std::optional<Box<3>> smallest;
   for (const BoundaryLoop& loop : loops) {
     std::optional<Box<3>> box;
     for (const int p : loop.points) {
@@ -69,15 +69,17 @@ std::optional<CutHint> cut_between(const std::vector<BoundaryLoop>& loops,
       const Point<3>& at = points[static_cast<std::size_t>(p)].point;
       box = box ? hull(*box, Box<3>{at, at}) : Box<3>{at, at};
     }
-    if (box) boxes.push_back(*box);
+    if (box && (!smallest || box->largest_width() < smallest->largest_width())) smallest = box;
   }
-  std::optional<CutHint> best;
-  for (const Box<3>& a : boxes)
-    for (const Box<3>& b : boxes)
-      for (int i = 0; i < 3; ++i)
-        if (a.hi[i] < b.lo[i] && (!best || b.lo[i] - a.hi[i] > best->hi - best->lo))
-          best = {i, a.hi[i], b.lo[i]};
-  return best;
+  if (!smallest) return std::nullopt;
+  CutHint hint;
+  for (int i = 1; i < 3; ++i)
+    if (smallest->width(i) > smallest->width(hint.axis)) hint.axis = i;
+  const double quarter = 0.25 * smallest->width(hint.axis);
+  hint.lo = smallest->lo[hint.axis] + quarter;
+  hint.hi = smallest->hi[hint.axis] - quarter;
+  if (!(hint.lo < hint.hi)) return std::nullopt;
+  return hint;
 }
 
 class CellReader {
@@ -99,8 +101,8 @@ class CellReader {
         if (!sphere) return failed(Reading::Kind::Ambiguous, "a pole lies on a surface");
         is_sphere = *sphere;
       } else if (loops->size() > 1 && !all_discs(graph, static_cast<int>(loops->size()))) {
-        Reading result = failed(Reading::Kind::Ambiguous, "a patch is no disc");
-        result.hint = cut_between(*loops, scene_.points);
+        Reading result = failed(Reading::Kind::Ambiguous, "a patch has a hole");
+        result.hint = cut_through(*loops, scene_.points);
         return result;
       }
       if (is_sphere) {

@@ -44,9 +44,9 @@ int unit_axis(const Plane& plane) {
 
 class PointNumbering {
  public:
-  PointNumbering(const std::vector<Plane>& planes, PlaneCharts& charts,
-                 const std::vector<Facet*>& facets)
-      : planes_(planes), charts_(charts), facets_(facets) {}
+  PointNumbering(const std::vector<FilteredFunction<3>>& surfaces, const std::vector<Plane>& planes,
+                 PlaneCharts& charts, const std::vector<Facet*>& facets)
+      : surfaces_(surfaces), planes_(planes), charts_(charts), facets_(facets) {}
 
   std::vector<FacetPoint> run() {
     for (std::size_t k = 0; k < facets_.size(); ++k) collect(static_cast<int>(k));
@@ -146,10 +146,47 @@ class PointNumbering {
       return;
     }
     point = static_cast<int>(points_.size());
-    const Point<2>& at = facet.arrangement.vertices[static_cast<std::size_t>(s.vertex)].point;
-    points_.push_back({{s.surface, -1}, s.planes, charts_.of(facet.plane).lift(at)});
+    points_.push_back({{s.surface, -1}, s.planes, about(facet, s)});
   }
 
+  /// About where a crossing is: by the rule of false position.
+  Point<3> about(const Facet& facet, const Sighting& s) {
+    const Arrangement::Vertex& vertex =
+        facet.arrangement.vertices[static_cast<std::size_t>(s.vertex)];
+    const LineCrossing& crossing =
+        facet.encasement.line_crossings[static_cast<std::size_t>(vertex.index)];
+    const Line& line = facet.encasement.lines[static_cast<std::size_t>(crossing.line)];
+    const PlaneChart& chart = charts_.of(facet.plane);
+    const auto p = static_cast<std::size_t>(parameter_axis(line)), q = 1 - p;
+    const auto point = [&](double t) {
+      Point<2> at;
+      at[p] = t;
+      at[q] = -(line.normal[p] * t + line.offset) / line.normal[q];
+      return chart.lift(at);
+    };
+    const FilteredFunction<3>& f = surfaces_[static_cast<std::size_t>(s.surface)];
+    double lo = crossing.lo, hi = crossing.hi;
+    double at_lo = f.approximate(point(lo)), at_hi = f.approximate(point(hi));
+    constexpr int kSteps = 40;
+    for (int step = 0; step < kSteps && at_lo * at_hi < 0; ++step) {
+      const double t = lo + (hi - lo) * (at_lo / (at_lo - at_hi));
+      if (!(lo < t && t < hi)) break;
+      const double value = f.approximate(point(t));
+      // An end that stays counts for less and less.
+      if (value * at_lo > 0) {
+        lo = t;
+        at_lo = value;
+        at_hi *= 0.5;
+      } else {
+        hi = t;
+        at_hi = value;
+        at_lo *= 0.5;
+      }
+    }
+    return point(lo + 0.5 * (hi - lo));
+  }
+
+  const std::vector<FilteredFunction<3>>& surfaces_;
   const std::vector<Plane>& planes_;
   PlaneCharts& charts_;
   const std::vector<Facet*>& facets_;
@@ -159,9 +196,10 @@ class PointNumbering {
 
 }  // namespace
 
-std::vector<FacetPoint> number_facet_points(const std::vector<Plane>& planes, PlaneCharts& charts,
+std::vector<FacetPoint> number_facet_points(const std::vector<FilteredFunction<3>>& surfaces,
+                                            const std::vector<Plane>& planes, PlaneCharts& charts,
                                             const std::vector<Facet*>& facets) {
-  return PointNumbering(planes, charts, facets).run();
+  return PointNumbering(surfaces, planes, charts, facets).run();
 }
 
 }  // namespace encase

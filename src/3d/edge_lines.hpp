@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "3d/facet_places.hpp"
+#include "common/filtered_function.hpp"
 #include "encase/surface_encasement.hpp"
 
 namespace encase {
@@ -17,7 +18,8 @@ namespace encase {
 /// changes on what they have in common. Otherwise it does not change there, and the roots differ.
 ///
 /// `planes` are those that the facets name; `facets` must be certified or not encased.
-std::vector<FacetPoint> number_facet_points(const std::vector<Plane>& planes, PlaneCharts& charts,
+std::vector<FacetPoint> number_facet_points(const std::vector<FilteredFunction<3>>& surfaces,
+                                            const std::vector<Plane>& planes, PlaneCharts& charts,
                                             const std::vector<Facet*>& facets);
 
 }  // namespace encase

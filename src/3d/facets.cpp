@@ -87,7 +87,9 @@ std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet) {
     return FacetTrouble{
         Outcome::Degenerate,
         "a surface touches an edge or passes through a corner of a cell, or nearly"};
-  auto arrangement = arrange(e);
+  ArrangeOptions without_points;
+  without_points.boundary_points = false;
+  auto arrangement = arrange(e, without_points);
   if (!arrangement) return FacetTrouble{Outcome::Undecided, arrangement.error().message};
   facet->encasement = std::move(e);
   facet->arrangement = std::move(arrangement).value();

@@ -76,7 +76,7 @@ struct SpacePartition::State {
   State(const SpaceScene& s, const PartitionLimits& l, Kernel& k)
       : scene(s), limits(l), kernel(k), root(s.region.bounding_box()) {}
 
-  const SpaceScene& scene;
+  const SpaceScene scene;
   PartitionLimits limits;
   Kernel& kernel;
   Box<3> root;

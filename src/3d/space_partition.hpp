@@ -55,7 +55,7 @@ class SpacePartition {
     std::vector<int> triple_points;  ///< of those given
   };
 
-  /// Keeps references to the scene. One leaf, not certified yet.
+  /// Keeps the references in the scene. One leaf, not certified yet.
   SpacePartition(const SpaceScene& scene, const PartitionLimits& limits, Kernel& kernel);
   ~SpacePartition();
 

@@ -218,7 +218,7 @@ void SurfaceEncaser::encase_facets() {
   }
   std::vector<Facet*> facets;
   for (EncasedFacet& encased : facets_) facets.push_back(&encased.facet);
-  points_ = number_facet_points(partition_->planes(), encaser_->charts(), facets);
+  points_ = number_facet_points(surfaces_, partition_->planes(), encaser_->charts(), facets);
 }
 
 /// Whether a facet beside a certified leaf failed: its plane is not generic.

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "3d/verify_space_claims.hpp"
+#include "common/components.hpp"
+
+namespace encase {
+
+namespace verification {
+
+namespace {
+
+bool finite(double a) { return std::isfinite(a); }
+bool finite(const Point<3>& p) { return finite(p[0]) && finite(p[1]) && finite(p[2]); }
+bool ordered(const Box<3>& b) {
+  return finite(b.lo) && finite(b.hi) && b.lo[0] <= b.hi[0] && b.lo[1] <= b.hi[1] &&
+         b.lo[2] <= b.hi[2];
+}
+bool has_interior(const Box<3>& b) {
+  return ordered(b) && b.lo[0] < b.hi[0] && b.lo[1] < b.hi[1] && b.lo[2] < b.hi[2];
+}
+template <class T>
+bool in_range(int index, const std::vector<T>& list) {
+  return index >= 0 && static_cast<std::size_t>(index) < list.size();
+}
+template <class T>
+bool all_in_range(const std::vector<int>& indices, const std::vector<T>& list) {
+  return std::all_of(indices.begin(), indices.end(), [&](int i) { return in_range(i, list); });
+}
+/// Strictly.
+template <class List>
+bool ascending(const List& list) {
+  return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+}
+bool proper(const Rational& q) { return mpz_sgn(mpq_denref(q.get_mpq_t())) > 0; }
+
+bool is_surface(const Function<3>& f) {
+  if (f.is_polynomial()) {
+    for (const auto& term : f.polynomial().terms()) {
+      for (const int e : term.exponent)
+        if (e < 0 || e > kMaxDegree) return false;
+      if (!proper(term.coefficient)) return false;
+    }
+    return f.polynomial().degree() >= 1 && f.polynomial().degree() <= kMaxDegree;
+  }
+  for (const Expression::Step& step : f.expression().steps())
+    if (step.operation == Operation::Constant && !proper(step.constant)) return false;
+  return f.expression().uses(0) || f.expression().uses(1) || f.expression().uses(2);
+}
+
+bool is_polyhedron(const Polyhedron& p) {
+  for (const HalfSpace& side : p.sides)
+    for (const Rational& c : side)
+      if (!proper(c)) return false;
+  for (const auto& corner : p.corners)
+    for (const Rational& c : corner)
+      if (!proper(c)) return false;
+  return !p.sides.empty();
+}
+
+/// The splitting planes: {0, 0, +-1} and the like, with a double as offset.
+bool is_axis_parallel(const Plane& plane) {
+  int ones = 0, zeros = 0;
+  for (const double c : plane.normal) {
+    ones += std::fabs(c) == 1 ? 1 : 0;
+    zeros += c == 0 ? 1 : 0;
+  }
+  return ones == 1 && zeros == 2 && finite(plane.offset) && !plane.rational;
+}
+
+void check_input_structure(SpaceClaims& claims) {
+  const SurfaceEncasement& e = claims.result;
+  for (std::size_t k = 0; k < e.input.size(); ++k)
+    claims.require(is_surface(e.input[k].function), "Input surface ", k,
+                   " has no proper polynomial or expression.");
+  for (std::size_t k = 0; k < e.surfaces.size(); ++k) {
+    claims.require(is_surface(e.surfaces[k].function), "Surface ", k,
+                   " has no proper polynomial or expression.");
+    const std::vector<int>& sources = e.surfaces[k].sources;
+    claims.require(!sources.empty() && ascending(sources) && all_in_range(sources, e.input),
+                   "Surface ", k, " does not name ascending indices of input surfaces.");
+  }
+  claims.require(is_polyhedron(e.region) && is_polyhedron(e.region_used),
+                 "A region has bad coefficients.");
+  claims.require(e.planes.size() >= e.region_used.sides.size(),
+                 "There are fewer planes than sides of the region used.");
+  for (std::size_t k = e.region_used.sides.size(); k < e.planes.size(); ++k)
+    claims.require(is_axis_parallel(e.planes[k]), "Plane ", k, " is not parallel to two axes.");
+}
+
+bool is_child(int child, const SurfaceEncasement& e) {
+  return child >= 0 ? in_range(child, e.history) : in_range(~child, e.cells);
+}
+
+bool is_pair(const std::array<int, 2>& pair, const SurfaceEncasement& e) {
+  return in_range(pair[0], e.surfaces) && in_range(pair[1], e.surfaces) && pair[0] < pair[1];
+}
+bool is_triple(const std::array<int, 3>& triple, const SurfaceEncasement& e) {
+  return triple[0] >= 0 && ascending(triple) && in_range(triple[2], e.surfaces);
+}
+
+template <class T>
+bool are_tokens(const std::vector<int>& tokens, const std::vector<T>& items) {
+  return std::all_of(tokens.begin(), tokens.end(), [&](int token) {
+    return token >= 0 ? in_range(token, items) : token >= cover::kUnresolved;
+  });
+}
+
+void check_list_structure(SpaceClaims& claims) {
+  const SurfaceEncasement& e = claims.result;
+  for (std::size_t k = 0; k < e.triple_points.size(); ++k) {
+    const TriplePoint& t = e.triple_points[k];
+    claims.require(is_triple(t.surfaces, e) && has_interior(t.box) && finite(t.point) &&
+                       (t.cell == -1 || in_range(t.cell, e.cells)),
+                   "Triple point ", k, " has a bad index, box or point.");
+  }
+  for (std::size_t k = 0; k < e.triple_point_covers.size(); ++k) {
+    const TriplePointCover& c = e.triple_point_covers[k];
+    claims.require(
+        is_triple(c.surfaces, e) && has_interior(c.root) && are_tokens(c.tokens, e.triple_points),
+        "Triple point cover ", k, " has a bad index, root or token.");
+  }
+  for (std::size_t k = 0; k < e.critical_points.size(); ++k) {
+    const CurveCriticalPoints& c = e.critical_points[k];
+    claims.require(is_pair(c.surfaces, e) && finite(c.direction) && has_interior(c.root) &&
+                       std::all_of(c.points.begin(), c.points.end(), has_interior) &&
+                       are_tokens(c.tokens, c.points),
+                   "List ", k, " of critical points has a bad index, box or token.");
+  }
+  for (std::size_t k = 0; k < e.absence_certificates.size(); ++k) {
+    const AbsenceCertificate& c = e.absence_certificates[k];
+    claims.require(in_range(c.surface, e.surfaces) && has_interior(c.box) &&
+                       (c.sign == Sign::Positive || c.sign == Sign::Negative),
+                   "Absence certificate ", k, " has a bad index, box or sign.");
+  }
+  for (std::size_t k = 0; k < e.graph_certificates.size(); ++k) {
+    const GraphCertificate& c = e.graph_certificates[k];
+    claims.require(in_range(c.surface, e.surfaces) && has_interior(c.box) && finite(c.direction) &&
+                       finite(c.center) && finite(c.spread) && finite(c.multiplier),
+                   "Graph certificate ", k, " has a bad index, box or number.");
+  }
+  using Kind = PairCertificate::Kind;
+  for (std::size_t k = 0; k < e.pair_certificates.size(); ++k) {
+    const PairCertificate& c = e.pair_certificates[k];
+    const bool kind = c.kind == Kind::Apart || c.kind == Kind::Local ||
+                      (c.kind == Kind::Listed && in_range(c.critical, e.critical_points));
+    claims.require(kind && is_pair(c.surfaces, e) && has_interior(c.box) && finite(c.direction) &&
+                       finite(c.alpha) && finite(c.beta),
+                   "Pair certificate ", k, " has a bad kind, index, box or number.");
+  }
+}
+
+bool is_facet_edge(const FacetEdge& edge, const SurfaceEncasement& e) {
+  return in_range(edge.facet, e.facets) &&
+         in_range(edge.half_edge,
+                  e.facets[static_cast<std::size_t>(edge.facet)].arrangement.half_edges);
+}
+
+void check_cell_structure(SpaceClaims& claims) {
+  const SurfaceEncasement& e = claims.result;
+  for (std::size_t k = 0; k < e.history.size(); ++k) {
+    const Split& split = e.history[k];
+    claims.require(in_range(split.line, e.planes) && is_child(split.negative, e) &&
+                       is_child(split.positive, e) &&
+                       split.line >= static_cast<int>(e.region_used.sides.size()),
+                   "Split ", k, " has a bad plane or child.");
+  }
+  for (std::size_t k = 0; k < e.facets.size(); ++k) {
+    const Facet& f = e.facets[k];
+    bool good = in_range(f.plane, e.planes) && f.polygon.corners.size() >= 3 &&
+                ascending(f.surfaces) && all_in_range(f.surfaces, e.surfaces) &&
+                (f.cells[0] == -1 || in_range(f.cells[0], e.cells)) &&
+                (f.cells[1] == -1 || in_range(f.cells[1], e.cells)) &&
+                f.points.size() == f.arrangement.vertices.size();
+    for (const int p : f.points) good = good && (p == -1 || in_range(p, e.facet_points));
+    claims.require(good, "Facet ", k, " has a bad index or polygon.");
+  }
+  for (std::size_t k = 0; k < e.cells.size() && !claims.full(); ++k) {
+    const SpaceCell& c = e.cells[k];
+    bool good = has_interior(c.box) && all_in_range(c.facets, e.facets) && ascending(c.facets) &&
+                c.signs.size() == e.surfaces.size() &&
+                all_in_range(c.absences, e.absence_certificates) &&
+                all_in_range(c.graphs, e.graph_certificates) &&
+                all_in_range(c.pairs, e.pair_certificates) &&
+                (c.state == CellState::Certified || c.state == CellState::Degenerate ||
+                 c.state == CellState::Undecided);
+    for (const SurfacePatch& patch : c.patches) {
+      good = good && in_range(patch.surface, e.surfaces);
+      for (const FacetEdge& edge : patch.loop) good = good && is_facet_edge(edge, e);
+    }
+    for (const SurfaceArc& arc : c.arcs) {
+      good = good && is_pair(arc.surfaces, e) && in_range(arc.certificate, e.pair_certificates) &&
+             all_in_range(arc.triple_points, e.triple_points);
+      for (std::size_t i = 0; i < 2; ++i)
+        good = good && in_range(arc.patches[i], c.patches) && in_range(arc.ends[i], e.facet_points);
+    }
+    claims.require(good, "Cell ", k, " has a bad index, box or state.");
+  }
+}
+
+void check_entry_structure(SpaceClaims& claims) {
+  const SurfaceEncasement& e = claims.result;
+  using Kind = Unresolved::Kind;
+  for (const auto* list : {&e.degenerate, &e.undecided})
+    for (std::size_t k = 0; k < list->size(); ++k) {
+      const UnresolvedInSpace& u = (*list)[k];
+      const char* name = list == &e.degenerate ? "Degenerate" : "Undecided";
+      const bool component = u.kind == Kind::SharedComponent || u.kind == Kind::RepeatedComponent;
+      claims.require(ascending(u.surfaces) && (component ? all_in_range(u.surfaces, e.input)
+                                                         : all_in_range(u.surfaces, e.surfaces)),
+                     name, " entry ", k, " does not name ascending indices of surfaces.");
+      claims.require(!u.has_box || ordered(u.box), name, " entry ", k, " has a bad box.");
+    }
+}
+
+}  // namespace
+
+bool check_space_structure(SpaceClaims& claims) {
+  check_input_structure(claims);
+  check_list_structure(claims);
+  check_cell_structure(claims);
+  check_entry_structure(claims);
+  return claims.report.ok();
+}
+
+namespace {
+
+const Polynomial<3>* polynomial_of(const Function<3>& f) {
+  return f.is_polynomial() ? &f.polynomial() : nullptr;
+}
+
+/// The common refinement of the polynomials of the input and of the surfaces assigns every factor
+/// its sources.
+void check_factors(SpaceClaims& claims, std::set<int>* repeated) {
+  const SurfaceEncasement& e = claims.result;
+  std::vector<Polynomial<3>> polynomials;
+  std::vector<int> inputs_at, surfaces_at;
+  for (std::size_t k = 0; k < e.input.size(); ++k)
+    if (const auto* f = polynomial_of(e.input[k].function)) {
+      polynomials.push_back(*f);
+      inputs_at.push_back(static_cast<int>(k));
+    }
+  for (std::size_t k = 0; k < e.surfaces.size(); ++k)
+    if (const auto* f = polynomial_of(e.surfaces[k].function)) {
+      polynomials.push_back(*f);
+      surfaces_at.push_back(static_cast<int>(k));
+    }
+  for (const auto& element : coprime_square_free_base(polynomials)) {
+    std::vector<int> inputs, surfaces;
+    for (const auto& source : element.sources) {
+      const auto k = static_cast<std::size_t>(source.index);
+      if (k < inputs_at.size()) {
+        inputs.push_back(inputs_at[k]);
+        if (source.multiplicity > 1) repeated->insert(inputs.back());
+      } else {
+        surfaces.push_back(surfaces_at[k - inputs_at.size()]);
+        claims.require(source.multiplicity == 1, "Surface ", surfaces.back(),
+                       " has a repeated component.");
+      }
+    }
+    if (surfaces.size() > 1)
+      claims.require(false, "Surfaces ", surfaces[0], " and ", surfaces[1], " share a component.");
+    else if (surfaces.empty())
+      claims.require(false, "A component of input surface ", inputs[0], " is in no surface.");
+    else
+      claims.require(inputs == e.surfaces[static_cast<std::size_t>(surfaces[0])].sources,
+                     "Surface ", surfaces[0],
+                     " does not have the components that its sources say.");
+  }
+}
+
+void check_expressions(SpaceClaims& claims) {
+  const SurfaceEncasement& e = claims.result;
+  std::vector<int> count(e.input.size(), 0);
+  for (std::size_t s = 0; s < e.surfaces.size(); ++s) {
+    if (e.surfaces[s].function.is_polynomial()) continue;
+    std::vector<int> equal;
+    for (std::size_t i = 0; i < e.input.size(); ++i)
+      if (e.input[i].function == e.surfaces[s].function) equal.push_back(static_cast<int>(i));
+    for (const int i : equal) ++count[static_cast<std::size_t>(i)];
+    claims.require(equal == e.surfaces[s].sources, "Surface ", s,
+                   " is not the expression of its sources, or not of them alone.");
+  }
+  for (std::size_t i = 0; i < e.input.size(); ++i)
+    if (!e.input[i].function.is_polynomial())
+      claims.require(count[i] == 1, "The expression of input surface ", i,
+                     " is not that of one surface.");
+}
+
+/// Repeated and shared components are reported, and no others.
+void check_components(SpaceClaims& claims, const std::set<int>& repeated) {
+  const SurfaceEncasement& e = claims.result;
+  using Kind = Unresolved::Kind;
+  std::set<int> reported;
+  std::set<std::pair<int, int>> reported_pairs, pairs;
+  for (const UnresolvedInSpace& u : e.degenerate) {
+    if (u.kind == Kind::RepeatedComponent) reported.insert(u.surfaces.begin(), u.surfaces.end());
+    if (u.kind != Kind::SharedComponent) continue;
+    for (const int a : u.surfaces)
+      for (const int b : u.surfaces)
+        if (a < b) reported_pairs.insert({a, b});
+  }
+  for (const Surface& s : e.surfaces)
+    for (const int a : s.sources)
+      for (const int b : s.sources)
+        if (a < b) pairs.insert({a, b});
+  claims.require(reported == repeated,
+                 "The input surfaces with repeated components are not those reported.");
+  claims.require(reported_pairs == pairs,
+                 "The input surfaces with shared components are not those reported.");
+}
+
+}  // namespace
+
+void check_surfaces(SpaceClaims& claims) {
+  std::set<int> repeated;
+  check_factors(claims, &repeated);
+  check_expressions(claims);
+  check_components(claims, repeated);
+}
+
+void check_space_outcome(SpaceClaims& claims) {
+  const SurfaceEncasement& e = claims.result;
+  bool settled = true, undecided = !e.undecided.empty();
+  for (const SpaceCell& cell : e.cells) {
+    settled = settled && certified(cell);
+    undecided = undecided || cell.state == CellState::Undecided;
+  }
+  const Outcome outcome = undecided                         ? Outcome::Undecided
+                          : settled && e.degenerate.empty() ? Outcome::Certified
+                                                            : Outcome::Degenerate;
+  claims.require(e.outcome == outcome, "The outcome should be ",
+                 outcome == Outcome::Certified   ? "certified"
+                 : outcome == Outcome::Undecided ? "undecided"
+                                                 : "degenerate",
+                 ", as the cells and the unresolved entries are.");
+}
+
+}  // namespace verification
+
+Verification verify(const SurfaceEncasement& encasement, const VerifyOptions& options) {
+  using namespace verification;
+  SpaceClaims claims(encasement, options);
+
+  // Index errors and the like first, so that everything below may follow indices freely.
+  if (!check_space_structure(claims)) return claims.report;
+  claims.surfaces.reserve(encasement.surfaces.size());
+  for (const Surface& surface : encasement.surfaces) claims.surfaces.emplace_back(surface.function);
+
+  // What everything refers to: the surfaces, the region, its partition.
+  check_space_outcome(claims);
+  check_surfaces(claims);
+  if (!check_space_regions(claims) || !replay_space_history(claims)) return claims.report;
+
+  // What is known of single boxes.
+  check_certificates(claims);
+  check_point_lists(claims);
+
+  // The planes, and what follows from them for the cells.
+  if (check_facets(claims)) check_space_cells(claims);
+  return claims.report;
+}
+
+}  // namespace encase
