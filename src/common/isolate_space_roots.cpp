@@ -56,6 +56,8 @@ struct Part {
   Box<3> box;
   Box<3> zeros{{-1, -1, -1}, {1, 1, 1}};  ///< in the box's coordinates, where all zeros are
   CuttingPlanes::Set cutting = CuttingPlanes::kAll;
+  /// Along each axis, about: how much the Jacobian varies, or how wide the box is.
+  Point<3> bend{1, 1, 1};
   std::array<int, 3> bits{};  ///< in which the nets were made
 };
 
@@ -172,30 +174,29 @@ class SpaceSearch {
       return settle(part, cover::kExcluded);
     if (verdict.contracts)
       if (const auto k = root_in(part, verdict.contraction)) return settle(part, *k);
+    part.bend = verdict.bend;
+    if (part.bend == Point<3>{})
+      for (int i = 0; i < 3; ++i) part.bend[i] = part.box.width(i) / tree_.root().width(i);
     int axis = free_axis(part);
-    if (axis < 0) axis = verdict.axis;
-    if (axis < 0) axis = longest_axis(part.box);
+    if (axis < 0)
+      axis = static_cast<int>(std::max_element(part.bend.begin(), part.bend.end()) -
+                              part.bend.begin());
     split(part, axis, frame, level);
   }
 
-  /// An axis across which one of the halves is known to have no zeros, or -1.
+  /// An axis across which one of the halves is known to have no zeros and a halving helps, or -1.
   static int free_axis(const Part& part) {
+    const double most = *std::max_element(part.bend.begin(), part.bend.end());
     int axis = -1;
     double least = 2;
     for (int i = 0; i < 3; ++i) {
       const double width = part.zeros.hi[i] - part.zeros.lo[i];
-      if ((part.zeros.hi[i] < 0 || part.zeros.lo[i] > 0) && width < least) {
+      if ((part.zeros.hi[i] < 0 || part.zeros.lo[i] > 0) && part.bend[i] >= most / 8 &&
+          width < least) {
         least = width;
         axis = i;
       }
     }
-    return axis;
-  }
-
-  static int longest_axis(const Box<3>& box) {
-    int axis = 0;
-    for (int i = 1; i < 3; ++i)
-      if (box.width(i) > box.width(axis)) axis = i;
     return axis;
   }
 
@@ -239,6 +240,7 @@ class SpaceSearch {
     for (int k = 0; k < 2; ++k) {
       Part& h = half[k];
       h.node = first + k;
+      h.bend[axis] *= 0.5;
       // From the halved coordinate s to 2 s + 1 or 2 s - 1, rounded outward.
       const double shift = k == 0 ? 1 : -1;
       h.zeros.lo[axis] = std::max(-1.0, 2 * part.zeros.lo[axis] + shift - 0x1p-48);
