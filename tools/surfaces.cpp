@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "surfaces.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "common/perturb.hpp"
+#include "encase/surface_result_json.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "surface_report.hpp"
+#include "surfaces_input.hpp"
+#ifdef ENCASE_HAVE_VTK
+#include "encase/surface_vtk.hpp"
+#endif
+
+namespace encase {
+namespace {
+
+Error bad_input(const std::string& message) { return {Error::Code::BadInput, message}; }
+
+Status check_request(const SurfacesRequest& r) {
+  if (r.file.empty() == r.expressions.empty())
+    return bad_input(
+        "give either a FILE of surfaces or expressions with -e; see encase surfaces --help");
+  if (r.history && r.vtk_directory.empty())
+    return bad_input("--history belongs to the VTK files: give their directory with -o");
+  if (r.options.start_bits > r.options.max_bits)
+    return bad_input("--start-bits is above --max-bits");
+  if (!std::isfinite(r.options.max_seconds))
+    return bad_input("--max-seconds must be a finite number");
+  if (!(r.perturbation >= 0 && r.perturbation < 1))
+    return bad_input("--perturb must be between 0 and 1");
+  if (!(r.tolerance >= 0 && std::isfinite(r.tolerance)))
+    return bad_input("--tolerance must be a finite positive number");
+#ifndef ENCASE_HAVE_VTK
+  if (!r.vtk_directory.empty())
+    return bad_input("-o needs VTK, and this encase was built without VTK");
+#endif
+  return check_writable_directory(r.vtk_directory);
+}
+
+Status perturb_all(const SurfacesRequest& r, std::vector<NamedSurface>* surfaces) {
+  if (r.perturbation == 0) return {};
+  std::mt19937_64 generator(r.seed);
+  for (NamedSurface& surface : *surfaces) {
+    if (!surface.function.is_polynomial())
+      return bad_input("surface '" + surface.name + "' is no polynomial and cannot be perturbed");
+    surface.function = perturb(surface.function.polynomial(), r.perturbation, generator);
+  }
+  return {};
+}
+
+Status write_files(const SurfacesRequest& r, const SurfaceEncasement& encasement) {
+#ifdef ENCASE_HAVE_VTK
+  if (!r.vtk_directory.empty()) {
+    SurfaceVtkOptions options;
+    options.tolerance = r.tolerance;
+    options.history = r.history;
+    return write_vtk(encasement, r.vtk_directory, options);
+  }
+#else
+  (void)r, (void)encasement;
+#endif
+  return {};
+}
+
+Status write_report(const SurfacesRequest& r, const SurfaceEncasement& encasement) {
+  std::string text = report(encasement);
+  if (r.verbose) text += statistics_report(encasement);
+  if (r.summary) {
+    if (const Status status = print(summary_json(encasement))) return status;
+    if (r.verbose) std::fputs(text.c_str(), stderr);
+    return {};
+  }
+  return r.quiet ? Status() : print(text);
+}
+
+}  // namespace
+
+ExitCode run_surfaces(SurfacesRequest request) {
+  if (const Status status = check_request(request)) return fail(*status);
+  auto input = read_surfaces_input(request.file, request.expressions, request.region);
+  if (!input) return fail(input.error());
+  if (const Status status = perturb_all(request, &input.value().surfaces)) return fail(*status);
+
+  std::optional<Progress> progress(std::in_place, !request.quiet);
+  request.options.progress = progress->callback();
+  const auto encasement = encase(input.value().surfaces, input.value().region, request.options);
+  progress->begin("writing the result");
+  Status status =
+      encasement ? write_files(request, encasement.value()) : Status(encasement.error());
+  progress.reset();
+  if (!status) status = write_report(request, encasement.value());
+  return status ? fail(*status) : exit_code(encasement.value().outcome);
+}
+
+}  // namespace encase
