@@ -25,10 +25,11 @@ struct SurfaceMesh {
   /// box around the triangle is larger, in radians. Infinite: nothing is proved.
   std::vector<double> angles;
 
-  double distance = 0;  ///< the largest one
-  double angle = 0;     ///< the largest one
-  int euler = 0;        ///< points - edges + triangles
-  bool within_tolerance = true;
+  double tolerance = 0;          ///< as asked
+  double distance = 0;           ///< the largest one
+  double angle = 0;              ///< the largest one
+  int euler = 0;                 ///< points - edges + triangles
+  bool within_tolerance = true;  ///< distances and angles are at most what was asked
   /// Every cell that may meet the surface is certified and has its patches here.
   bool complete = true;
 };
