@@ -79,31 +79,35 @@ void require(int success) {
   if (!success) throw std::logic_error("FLINT could not compute a greatest common divisor");
 }
 
-using Source = BaseElement<2>::Source;
-
 /// A factor in the making. `input` is the index of the input it equals up to a constant, or -1.
-struct Element {
-  std::unique_ptr<FlintPolynomial<2>> factor;
+template <int D>
+struct FactorElement {
+  using Source = typename BaseElement<D>::Source;
+  std::unique_ptr<FlintPolynomial<D>> factor;
   std::vector<Source> sources;
   int input = -1;
 };
 
+template <int D>
 class Refinement {
+  using Element = FactorElement<D>;
+  using Source = typename Element::Source;
+
  public:
   /// Adds an input as the product of its square-free parts' powers.
-  void add(int index, const Polynomial<2>& f) {
+  void add(int index, const Polynomial<D>& f) {
     fmpz_mpoly_factor_t parts;
     fmpz_mpoly_factor_init(parts, context_);
-    FlintPolynomial<2> whole(context_), base(context_);
+    FlintPolynomial<D> whole(context_), base(context_);
     whole.set(f);
-    std::map<slong, std::unique_ptr<FlintPolynomial<2>>> by_multiplicity;
+    std::map<slong, std::unique_ptr<FlintPolynomial<D>>> by_multiplicity;
     require(fmpz_mpoly_factor_squarefree(parts, whole, context_));
     for (slong k = 0; k < fmpz_mpoly_factor_length(parts, context_); ++k) {
       const slong multiplicity = fmpz_mpoly_factor_get_exp_si(parts, k, context_);
       fmpz_mpoly_factor_get_base(base, parts, k, context_);
       auto& product = by_multiplicity[multiplicity];
       if (!product) {
-        product = std::make_unique<FlintPolynomial<2>>(context_);
+        product = std::make_unique<FlintPolynomial<D>>(context_);
         fmpz_mpoly_one(*product, context_);
       }
       fmpz_mpoly_mul(*product, *product, base, context_);
@@ -114,8 +118,8 @@ class Refinement {
              multiplicity == 1 && by_multiplicity.size() == 1);
   }
 
-  std::vector<BaseElement<2>> take(const std::vector<Polynomial<2>>& inputs) && {
-    std::vector<BaseElement<2>> base;
+  std::vector<BaseElement<D>> take(const std::vector<Polynomial<D>>& inputs) && {
+    std::vector<BaseElement<D>> base;
     for (Element& element : elements_)
       base.push_back({element.input >= 0 ? inputs[static_cast<std::size_t>(element.input)]
                                          : element.factor->get(1),
@@ -127,16 +131,16 @@ class Refinement {
   /// Splits the elements by a square-free polynomial coprime to all others of its source.
   /// Invariant: two irreducible factors met so far are in one element exactly if their sources are
   /// equal.
-  void insert(std::unique_ptr<FlintPolynomial<2>> rest, Source source, bool is_input) {
+  void insert(std::unique_ptr<FlintPolynomial<D>> rest, Source source, bool is_input) {
     std::vector<Element> refined;
     for (Element& element : elements_) {
-      auto common = std::make_unique<FlintPolynomial<2>>(context_);
+      auto common = std::make_unique<FlintPolynomial<D>>(context_);
       require(fmpz_mpoly_gcd(*common, *element.factor, *rest, context_));
       if (fmpz_mpoly_is_fmpz(*common, context_)) {
         refined.push_back(std::move(element));
         continue;
       }
-      FlintPolynomial<2> remaining(context_);
+      FlintPolynomial<D> remaining(context_);
       fmpz_mpoly_divides(remaining, *rest, *common, context_);
       const bool rest_divides = fmpz_mpoly_is_fmpz(remaining, context_);
       fmpz_mpoly_swap(*rest, remaining, context_);
@@ -159,7 +163,7 @@ class Refinement {
       elements_.push_back({std::move(rest), {source}, is_input ? source.index : -1});
   }
 
-  FlintContext<2> context_;
+  FlintContext<D> context_;
   std::vector<Element> elements_;
 };
 
@@ -198,23 +202,26 @@ bool product_is_square_free(const std::vector<std::optional<ModularPolynomial>>&
 // Restricting to one line modulo one prime p proves both statements below, whenever the restriction
 // r of f keeps the total degree of f.
 //
-// No repeated factor: let f = c G^2 H with c rational and G, H primitive in Z[x,y] (Gauss), G not
-// constant. p divides no denominator of f, so c is a p-integer, and r = c (G|)^2 (H|), where | is
-// the restriction modulo p. No degree grows under |, and the degrees on both sides are equal: so
-// deg G| = deg G > 0, and r is not square-free.
+// No repeated factor: let f = c G^2 H with c rational and G, H primitive in Z[x,y] (Gauss; in
+// Z[x,y,z] alike), G not constant. p divides no denominator of f, so c is a p-integer, and r = c
+// (G|)^2 (H|), where | is the restriction modulo p. No degree grows under |, and the degrees on
+// both sides are equal: so deg G| = deg G > 0, and r is not square-free.
 //
 // No shared factor: let f = c H F' and g = c' H G' likewise, with H not constant. As before
 // deg H| = deg H > 0, and H| divides r and the restriction of g (which may be of any degree).
 //
 // So nothing is repeated or shared among polynomials whose restrictions all keep the degree and
 // have a square-free product.
-std::vector<BaseElement<2>> coprime_square_free_base(const std::vector<Polynomial<2>>& inputs) {
+namespace {
+
+template <int D>
+std::vector<BaseElement<D>> coprime_base(const std::vector<Polynomial<D>>& inputs) {
   const std::size_t n = inputs.size();
   std::vector<std::optional<ModularPolynomial>> restriction(n);  // that keep the degree
   for (std::size_t i = 0; i < n; ++i)
     if (!inputs[i].is_constant()) restriction[i] = restrict_modulo_prime(inputs[i]);
   if (n >= kMany && product_is_square_free(restriction)) {
-    std::vector<BaseElement<2>> all;
+    std::vector<BaseElement<D>> all;
     for (std::size_t i = 0; i < n; ++i) all.push_back({inputs[i], {{static_cast<int>(i), 1}}});
     return all;
   }
@@ -230,8 +237,8 @@ std::vector<BaseElement<2>> coprime_square_free_base(const std::vector<Polynomia
 
   // What is still simple was so at each of its pairs, and so proved coprime to every other input.
   // The rest is refined among itself.
-  std::vector<BaseElement<2>> base;
-  std::optional<Refinement> refinement;
+  std::vector<BaseElement<D>> base;
+  std::optional<Refinement<D>> refinement;
   for (std::size_t i = 0; i < n; ++i) {
     if (inputs[i].is_constant()) continue;
     if (simple[i]) {
@@ -247,6 +254,15 @@ std::vector<BaseElement<2>> coprime_square_free_base(const std::vector<Polynomia
     return a.sources.front().index < b.sources.front().index;
   });
   return base;
+}
+
+}  // namespace
+
+std::vector<BaseElement<2>> coprime_square_free_base(const std::vector<Polynomial<2>>& inputs) {
+  return coprime_base(inputs);
+}
+std::vector<BaseElement<3>> coprime_square_free_base(const std::vector<Polynomial<3>>& inputs) {
+  return coprime_base(inputs);
 }
 
 namespace {

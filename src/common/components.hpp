@@ -28,8 +28,9 @@ struct BaseElement {
 /// of the inputs that first contain them.
 ///
 /// Cost: without repeated and shared factors nearly always one restriction to a line modulo a prime
-/// for each input and one gcd modulo that prime for each pair; else gcds of bivariate polynomials.
+/// for each input and one gcd modulo that prime for each pair; else gcds of the polynomials.
 std::vector<BaseElement<2>> coprime_square_free_base(const std::vector<Polynomial<2>>& inputs);
+std::vector<BaseElement<3>> coprime_square_free_base(const std::vector<Polynomial<3>>& inputs);
 
 /// The resultant of f and g with respect to the variable `eliminated_axis`, as a polynomial in the
 /// other one: zero if and only if f and g share a component that contains the eliminated variable.

@@ -12,7 +12,12 @@ using Residue = std::uint64_t;
 
 constexpr int kBits = 61;
 constexpr Residue kPrime = kModularPrime;
-constexpr Residue kOffset = 1034971827364859203, kSlope = 1234567890123456789;
+/// y = a + b t, z = c + d t
+struct LineCoordinate {
+  Residue offset, slope;
+};
+constexpr LineCoordinate kY{1034971827364859203, 1234567890123456789},
+    kZ{1876543210987654321, 987654321012345679};
 
 /// The residue of a number below 2^123: 2^61 is 1 modulo the prime.
 Residue reduce(unsigned __int128 x) {
@@ -46,7 +51,8 @@ Residue residue(mpz_srcptr value) {
 
 /// The coefficients modulo the prime, in the order of the terms; nothing if it divides a
 /// denominator.
-std::optional<std::vector<Residue>> coefficients(const Polynomial<2>& f) {
+template <int D>
+std::optional<std::vector<Residue>> coefficients(const Polynomial<D>& f) {
   const auto& terms = f.terms();
   const std::size_t n = terms.size();
   std::vector<Residue> result(n);
@@ -106,7 +112,41 @@ bool coprime_in_place(ModularPolynomial& f, ModularPolynomial& g) {
   return f.size() + g.size() == 1;
 }
 
+/// A step of Horner's rule: the first `count` coefficients become those of the polynomial times the
+/// line's coordinate, plus the row.
+void times_plus(const LineCoordinate& at, const Residue* row, std::size_t count,
+                ModularPolynomial* result) {
+  for (std::size_t k = count; k-- > 0;) {
+    const Residue moved = k > 0 ? (*result)[k - 1] : 0;
+    Residue& value = (*result)[k];
+    value = product_sum(value, at.offset, moved, at.slope) + row[k];
+    if (value >= kPrime) value -= kPrime;
+  }
+}
+
 }  // namespace
+
+std::optional<ModularPolynomial> restrict_modulo_prime(const Polynomial<3>& f) {
+  const auto coefficient = coefficients(f);
+  if (!coefficient) return std::nullopt;
+  const std::size_t size = static_cast<std::size_t>(f.degree()) + 1;
+  std::vector<Residue> dense(size * size * size);  // that of x^i y^j z^k in row j of layer k
+  auto next = coefficient->begin();
+  for (const auto& term : f.terms())
+    dense[(static_cast<std::size_t>(term.exponent[2]) * size +
+           static_cast<std::size_t>(term.exponent[1])) *
+              size +
+          static_cast<std::size_t>(term.exponent[0])] = *next++;
+  ModularPolynomial result(size);
+  for (std::size_t k = size; k-- > 0;) {
+    ModularPolynomial layer(size);
+    for (std::size_t j = size - k; j-- > 0;)
+      times_plus(kY, &dense[(k * size + j) * size], size - k - j, &layer);
+    times_plus(kZ, layer.data(), size - k, &result);
+  }
+  if (result.back() == 0) return std::nullopt;
+  return result;
+}
 
 std::optional<ModularPolynomial> restrict_modulo_prime(const Polynomial<2>& f) {
   const auto coefficient = coefficients(f);
@@ -117,16 +157,8 @@ std::optional<ModularPolynomial> restrict_modulo_prime(const Polynomial<2>& f) {
   for (const auto& term : f.terms())
     dense[static_cast<std::size_t>(term.exponent[1]) * size +
           static_cast<std::size_t>(term.exponent[0])] = *next++;
-  // Horner's rule over the powers of y: times a + b t, plus the row; of degree f's less the power.
   ModularPolynomial result(size);
-  for (std::size_t j = size; j-- > 0;) {
-    const Residue* row = &dense[j * size];
-    for (std::size_t k = size - j; k-- > 0;) {
-      const Residue moved = k > 0 ? result[k - 1] : 0;
-      result[k] = product_sum(result[k], kOffset, moved, kSlope) + row[k];
-      if (result[k] >= kPrime) result[k] -= kPrime;
-    }
-  }
+  for (std::size_t j = size; j-- > 0;) times_plus(kY, &dense[j * size], size - j, &result);
   if (result.back() == 0) return std::nullopt;
   return result;
 }

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "3d/facets.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/filtered_function.hpp"
+#include "encase/arrangement.hpp"
+
+namespace encase {
+
+namespace {
+
+/// Whether the encasement is of the polygon exactly and of the curves as given.
+bool is_as_asked(const Encasement& e, const Region& polygon,
+                 const std::vector<NamedCurve>& curves) {
+  bool same = e.region_used.corners == polygon.corners && e.curves.size() == curves.size();
+  for (std::size_t k = 0; same && k < curves.size(); ++k)
+    same = e.curves[k].function == curves[k].function;
+  return same;
+}
+
+}  // namespace
+
+const FacetEncaser::OnPlane& FacetEncaser::restricted(int plane, int surface) {
+  const auto [entry, is_new] = restricted_.try_emplace({plane, surface});
+  OnPlane& result = entry->second;
+  if (!is_new) return result;
+  result.function =
+      charts_.of(plane).restrict(surfaces_[static_cast<std::size_t>(surface)].function);
+  const Function<2>& f = result.function;
+  const bool is_constant = f.is_polynomial() ? f.polynomial().is_constant()
+                                             : !f.expression().uses(0) && !f.expression().uses(1);
+  if (is_constant && f.is_polynomial() && f.polynomial().is_zero())
+    result.constant = Sign::Zero;
+  else if (is_constant)
+    result.constant = FilteredFunction<2>(f).sign_at({0, 0}, kernel_);
+  return result;
+}
+
+EncasedFacet FacetEncaser::encase(FacetPlace place, const std::vector<int>& surfaces) {
+  std::vector<int> with_curves;
+  std::optional<FacetTrouble> trouble;
+  for (const int s : surfaces) {
+    const std::optional<Sign>& constant = restricted(place.plane, s).constant;
+    if (!constant) with_curves.push_back(s);
+    if (constant == Sign::Zero)
+      trouble = {Outcome::Degenerate, "surface '" + surfaces_[static_cast<std::size_t>(s)].name +
+                                          "' contains a plane of the partition"};
+  }
+  Key key{place.plane, place.extent.lo, place.extent.hi, with_curves};
+  EncasedFacet result;
+  if (const auto found = earlier_.find(key); found != earlier_.end()) {
+    result = std::move(found->second);
+    earlier_.erase(found);
+    result.facet.cells = place.cells;
+    return result;
+  }
+  result.extent = place.extent;
+  result.trouble = std::move(trouble);
+  Facet& facet = result.facet;
+  facet.plane = place.plane;
+  facet.cells = place.cells;
+  facet.polygon = std::move(place.polygon);
+  facet.side_planes = std::move(place.side_planes);
+  facet.surfaces = std::move(with_curves);
+  if (!result.trouble && !facet.surfaces.empty()) result.trouble = encase(&facet);
+  return result;
+}
+
+std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet) {
+  std::vector<NamedCurve> curves;
+  for (const int s : facet->surfaces)
+    curves.push_back(
+        {surfaces_[static_cast<std::size_t>(s)].name, restricted(facet->plane, s).function});
+  ++encased_;
+  auto result = encase::encase(curves, facet->polygon, options_);
+  if (!result) return FacetTrouble{Outcome::Undecided, result.error().message};
+  Encasement& e = result.value();
+  decisions_ += e.statistics.decisions;
+  if (e.outcome == Outcome::Undecided)
+    return FacetTrouble{Outcome::Undecided, e.undecided.empty() ? "a facet was left undecided"
+                                                                : e.undecided.front().reason};
+  if (e.outcome == Outcome::Degenerate && !e.degenerate.empty())
+    return FacetTrouble{Outcome::Degenerate, e.degenerate.front().reason};
+  if (!is_as_asked(e, facet->polygon, curves))
+    return FacetTrouble{
+        Outcome::Degenerate,
+        "a surface touches an edge or passes through a corner of a cell, or nearly"};
+  auto arrangement = arrange(e);
+  if (!arrangement) return FacetTrouble{Outcome::Undecided, arrangement.error().message};
+  facet->encasement = std::move(e);
+  facet->arrangement = std::move(arrangement).value();
+  return std::nullopt;
+}
+
+void FacetEncaser::recycle(std::vector<EncasedFacet> facets) {
+  for (EncasedFacet& encased : facets) {
+    Key key{encased.facet.plane, encased.extent.lo, encased.extent.hi, encased.facet.surfaces};
+    encased.facet.points.clear();
+    earlier_.insert_or_assign(std::move(key), std::move(encased));
+  }
+}
+
+}  // namespace encase
