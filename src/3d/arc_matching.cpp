@@ -213,6 +213,7 @@ class ArcMatcher {
     };
     std::vector<std::vector<Placed>> on_arc(reading_->arcs.size());
     for (const int t : cell_.leaf.triple_points) {
+      if (!cell_.scene.inside[static_cast<std::size_t>(t)]) continue;
       const TriplePoint& triple = cell_.scene.triple_points[static_cast<std::size_t>(t)];
       const auto& [f, g, h] = triple.surfaces;
       for (const auto& pair : {std::array{f, g}, std::array{f, h}, std::array{g, h}}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct ReadingScene {
   const FacetComplex& complex;
   const std::vector<FacetPoint>& points;
   const std::vector<TriplePoint>& triple_points;
+  const std::vector<char>& inside;  ///< whether a triple point lies in the region used
   const std::vector<GraphCertificate>& graphs;
   const std::vector<PairCertificate>& pairs;
   /// (grad f x grad g) . w of each list of critical points.

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "3d/surface_encaser.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "3d/edge_lines.hpp"
+#include "3d/pair_critical_points.hpp"
+#include "3d/solid_region.hpp"
+#include "common/isolate_roots.hpp"
+
+namespace encase {
+
+namespace {
+
+std::string decimal(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+/// Directions that nobody has reason to put curves at right angles to.
+Point<3> generic_direction(int number) {
+  const double turn = std::fmod(0.6180339887498949 * (number + 1), 1.0),
+               height = 0.35 + 0.3 * std::fmod(0.4142135623730951 * (number + 1), 1.0);
+  const double angle = 6.283185307179586 * turn, radius = std::sqrt(1 - height * height);
+  return {radius * std::cos(angle), radius * std::sin(angle), height};
+}
+
+/// The side of the plane on which the whole box lies, as far as intervals tell.
+std::optional<Sign> side(const HalfSpace& half_space, const Box<3>& box) {
+  Interval value = Interval::enclose(half_space[3]);
+  for (int i = 0; i < 3; ++i)
+    value = value + Interval::enclose(half_space[i]) * Interval(box.lo[i], box.hi[i]);
+  return value.sign();
+}
+
+}  // namespace
+
+SurfaceEncaser::SurfaceEncaser(const std::vector<NamedSurface>& input, const Polyhedron& region,
+                               const SurfaceOptions& options)
+    : options_(options) {
+  kernel_.start_bits = std::max(options.start_bits, Kernel::kDoubleBits);
+  kernel_.max_bits = std::max(options.max_bits, kernel_.start_bits);
+  result_.input = input;
+  result_.region = region;
+}
+
+bool SurfaceEncaser::out_of_budget() {
+  if (is_stopped_) return true;
+  if (clock_.exceeds(options_.max_seconds)) {
+    budget_ = "the limit of " + decimal(options_.max_seconds) + " CPU seconds was reached";
+    is_stopped_ = true;
+  }
+  return is_stopped_;
+}
+
+bool SurfaceEncaser::stop(const char* stage) {
+  if (!is_stopped_ && options_.progress && !options_.progress(stage, -1)) {
+    budget_ = "the computation was cancelled";
+    is_stopped_ = true;
+  }
+  return out_of_budget();
+}
+
+SubdivisionLimits SurfaceEncaser::limits(const char* stage) {
+  SubdivisionLimits limits;
+  limits.max_boxes = 50000;
+  limits.stop = [this, stage] { return stop(stage); };
+  return limits;
+}
+
+void SurfaceEncaser::use_region(int attempt) {
+  auto region = usable_region(result_.region, attempt);
+  if (!region) region = usable_region(result_.region, 0);
+  partition_.reset();
+  encaser_.reset();
+  facets_.clear();
+  cells_.clear();
+  region_ = std::move(*region);
+  sides_ = planes_of(region_.polyhedron);
+  result_.degenerate.resize(notes_);
+  result_.undecided.clear();
+}
+
+bool SurfaceEncaser::isolate_triple_points() {
+  result_.triple_points.clear();
+  result_.triple_point_covers.clear();
+  inside_.clear();
+  bool is_generic = true;
+  const Box<3> box = region_.polyhedron.bounding_box();
+  const int n = static_cast<int>(surfaces_.size());
+  for (int f = 0; f < n; ++f)
+    for (int g = f + 1; g < n; ++g)
+      for (int h = g + 1; h < n; ++h) {
+        const auto at = [&](int s) { return &surfaces_[static_cast<std::size_t>(s)]; };
+        RootIsolation<3> roots = isolate_roots<3>({at(f), at(g), at(h)}, box, sides_,
+                                                  limits("isolating triple points"), kernel_);
+        is_generic = add_triple_points(std::move(roots), {f, g, h}) && is_generic;
+      }
+  return is_generic;
+}
+
+/// False if a point is not told to be inside or outside of the region.
+bool SurfaceEncaser::add_triple_points(RootIsolation<3> roots, const std::array<int, 3>& surfaces) {
+  result_.statistics.point_boxes += roots.boxes;
+  const int first = static_cast<int>(result_.triple_points.size());
+  bool is_generic = true;
+  for (std::size_t k = 0; k < roots.roots.size(); ++k) {
+    TriplePoint point;
+    point.surfaces = surfaces;
+    point.box = roots.roots[k];
+    point.point = point.box.center();
+    point.rounded = k < roots.rounded.size() && roots.rounded[k];
+    bool inside = true, outside = false;
+    for (const HalfSpace& half_space : region_.polyhedron.sides) {
+      const std::optional<Sign> at = side(half_space, point.box);
+      inside = inside && at == Sign::Negative;
+      outside = outside || at == Sign::Positive;
+    }
+    is_generic = is_generic && (inside || outside);
+    inside_.push_back(inside ? 1 : 0);
+    result_.triple_points.push_back(point);
+  }
+  UnresolvedInSpace entry;
+  entry.kind = Unresolved::Kind::Concurrency;
+  entry.surfaces.assign(surfaces.begin(), surfaces.end());
+  report(roots.unresolved, entry, "three surfaces touch, nearly touch or have a curve in common");
+  for (int& token : roots.tokens)
+    if (token >= 0) token += first;
+  result_.triple_point_covers.push_back({surfaces, roots.root_box, std::move(roots.tokens)});
+  return is_generic;
+}
+
+void SurfaceEncaser::isolate_critical_points() {
+  result_.critical_points.clear();
+  directions_.clear();
+  const Box<3> box = region_.polyhedron.bounding_box();
+  const int n = static_cast<int>(surfaces_.size());
+  int number = 0;
+  for (int f = 0; f < n; ++f)
+    for (int g = f + 1; g < n; ++g) {
+      const Point<3> w = generic_direction(number++);
+      auto found = pair_critical_points(surfaces_[static_cast<std::size_t>(f)],
+                                        surfaces_[static_cast<std::size_t>(g)], w, box, sides_,
+                                        limits("isolating critical points"), kernel_);
+      if (!found) continue;
+      result_.statistics.critical_boxes += found->points.boxes;
+      result_.critical_points.push_back({{f, g},
+                                         w,
+                                         std::move(found->points.roots),
+                                         found->points.root_box,
+                                         std::move(found->points.tokens)});
+      directions_.push_back(std::move(found->direction));
+    }
+}
+
+void SurfaceEncaser::partition() {
+  scene_.reset(new SpaceScene{surfaces_, region_.polyhedron, result_.triple_points,
+                              result_.triple_point_covers, result_.critical_points});
+  PartitionLimits limits;
+  limits.max_leaves = options_.max_cells;
+  limits.stop = [this] { return stop("splitting cells"); };
+  partition_ = std::make_unique<SpacePartition>(*scene_, limits, kernel_);
+  partition_->certify();
+
+  EncaseOptions plane_options;
+  plane_options.relaxed = true;
+  plane_options.fast = true;
+  plane_options.max_seconds = options_.max_seconds;
+  plane_options.max_bits = kernel_.max_bits;
+  plane_options.start_bits = kernel_.start_bits;
+  plane_options.progress = [this](const char*, double) { return !stop("encasing facets"); };
+  encaser_ = std::make_unique<FacetEncaser>(result_.surfaces, partition_->planes(), plane_options,
+                                            kernel_);
+}
+
+bool SurfaceEncaser::read_cells(bool last) {
+  while (true) {
+    encase_facets();
+    if (!last && !is_stopped_ && facets_fail()) return false;
+    if (read_all()) return true;
+  }
+}
+
+/// Encases the facets of all cells, and numbers the points on them.
+void SurfaceEncaser::encase_facets() {
+  BoxPartition boxes{partition_->planes(),
+                     partition_->history(),
+                     region_.polyhedron.bounding_box(),
+                     {-1, -1, -1, -1, -1, -1}};
+  if (region_.is_box) boxes.root_planes = {0, 1, 2, 3, 4, 5};
+  encaser_->recycle(std::move(facets_));
+  facets_.clear();
+  const auto& leaves = partition_->leaves();
+  cells_.resize(leaves.size());
+  for (Cell& cell : cells_) cell.facets.clear();
+  const auto is_open = [&](int cell) {
+    return cell < 0 || leaves[static_cast<std::size_t>(cell)].state != CellState::Certified ||
+           cells_[static_cast<std::size_t>(cell)].trouble;
+  };
+  for (FacetPlace& place : facet_places(boxes, region_, encaser_->charts())) {
+    const int index = static_cast<int>(facets_.size());
+    std::vector<int> surfaces;
+    if (!is_open(place.cells[0]) || !is_open(place.cells[1]))
+      for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+        const auto may_meet = [&](int cell) {
+          return cell < 0 || leaves[static_cast<std::size_t>(cell)].signs[s] == Sign::Zero;
+        };
+        if (may_meet(place.cells[0]) && may_meet(place.cells[1]))
+          surfaces.push_back(static_cast<int>(s));
+      }
+    for (const int cell : place.cells)
+      if (cell >= 0) cells_[static_cast<std::size_t>(cell)].facets.push_back(index);
+    facets_.push_back(encaser_->encase(std::move(place), surfaces));
+  }
+  std::vector<Facet*> facets;
+  for (EncasedFacet& encased : facets_) facets.push_back(&encased.facet);
+  points_ = number_facet_points(partition_->planes(), encaser_->charts(), facets);
+}
+
+/// Whether a facet beside a certified leaf failed: its plane is not generic.
+bool SurfaceEncaser::facets_fail() const {
+  return std::any_of(facets_.begin(), facets_.end(), [&](const EncasedFacet& encased) {
+    return encased.trouble &&
+           std::any_of(encased.facet.cells.begin(), encased.facet.cells.end(), [&](int cell) {
+             return cell >= 0 && partition_->leaves()[static_cast<std::size_t>(cell)].state ==
+                                     CellState::Certified;
+           });
+  });
+}
+
+void SurfaceEncaser::leave(int index, Outcome outcome, std::string reason) {
+  Cell& cell = cells_[static_cast<std::size_t>(index)];
+  cell.reading = {};
+  cell.trouble = outcome;
+  cell.reason = std::move(reason);
+}
+
+bool SurfaceEncaser::read_all() {
+  const auto& leaves = partition_->leaves();
+  std::vector<const Facet*> facets;
+  for (const EncasedFacet& encased : facets_) facets.push_back(&encased.facet);
+  const FacetComplex complex{surfaces_, partition_->planes(), facets, encaser_->charts(), kernel_};
+  const ReadingScene scene{complex,
+                           points_,
+                           result_.triple_points,
+                           inside_,
+                           partition_->graphs(),
+                           partition_->pairs(),
+                           directions_};
+  std::vector<int> ambiguous;
+  for (std::size_t k = 0; k < leaves.size(); ++k) {
+    Cell& cell = cells_[k];
+    const int index = static_cast<int>(k);
+    if (cell.trouble || leaves[k].state != CellState::Certified) continue;
+    const auto failed = std::find_if(cell.facets.begin(), cell.facets.end(), [&](int f) {
+      return facets_[static_cast<std::size_t>(f)].trouble.has_value();
+    });
+    if (failed != cell.facets.end()) {
+      const FacetTrouble& trouble = *facets_[static_cast<std::size_t>(*failed)].trouble;
+      leave(index, trouble.outcome, trouble.reason);
+      continue;
+    }
+    cell.reading = read_cell(scene, index, leaves[k], cell.facets);
+    if (cell.reading.kind == Reading::Kind::Ambiguous) ambiguous.push_back(index);
+    if (cell.reading.kind == Reading::Kind::Inconsistent)
+      leave(index, Outcome::Undecided, cell.reading.reason);
+  }
+  for (const int index : ambiguous) {
+    const Reading reading = cells_[static_cast<std::size_t>(index)].reading;
+    ++result_.statistics.splits_after_reading;
+    if (out_of_budget() || !partition_->split(index, reading.hint))
+      leave(index, Outcome::Undecided, reading.reason);
+  }
+  return ambiguous.empty();
+}
+
+}  // namespace encase
