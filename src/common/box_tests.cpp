@@ -163,6 +163,28 @@ bool excluded(const SystemNets<D>& nets) {
 }
 
 template <int D>
+std::optional<std::array<double, D>> contracting_weights(const Matrix<D>& bound, double quality) {
+  // E v < v for a positive v bounds the spectral radius of E below 1 (Perron, Frobenius). The fixed
+  // point of v = 1 + E v is such a vector; a few iterations come close enough when there is one.
+  std::array<double, D> v;
+  v.fill(1.0);
+  for (int round = 0; round < 60; ++round) {
+    std::array<double, D> next;
+    bool proved = true;
+    for (int i = 0; i < D; ++i) {
+      double sum = 0;
+      for (int j = 0; j < D; ++j) sum += bound[i][j] * v[j];
+      proved = proved && sum * kUp < quality * v[i];
+      next[i] = 1 + sum;
+    }
+    if (proved) return v;
+    if (!(next[0] < 1e6)) break;
+    v = next;
+  }
+  return std::nullopt;
+}
+
+template <int D>
 std::optional<Contraction<D>> contraction(const SystemNets<D>& nets, double quality) {
   const Matrix<D> jacobian = mean_jacobian<D>(nets);
   Matrix<D> y = adjugate(jacobian);
@@ -181,27 +203,10 @@ std::optional<Contraction<D>> contraction(const SystemNets<D>& nets, double qual
     }
     if (!(result.bound[i][i] < quality)) return std::nullopt;
   }
-  // E v < v for a positive v bounds the spectral radius of E below 1 (Perron, Frobenius). The fixed
-  // point of v = 1 + E v is such a vector; a few iterations come close enough when there is one.
-  std::array<double, D> v;
-  v.fill(1.0);
-  for (int round = 0; round < 60; ++round) {
-    std::array<double, D> next;
-    bool proved = true;
-    for (int i = 0; i < D; ++i) {
-      double sum = 0;
-      for (int j = 0; j < D; ++j) sum += result.bound[i][j] * v[j];
-      proved = proved && sum * kUp < quality * v[i];
-      next[i] = 1 + sum;
-    }
-    if (proved) {
-      result.weights = v;
-      return result;
-    }
-    if (!(next[0] < 1e6)) break;
-    v = next;
-  }
-  return std::nullopt;
+  const auto weights = contracting_weights<D>(result.bound, quality);
+  if (!weights) return std::nullopt;
+  result.weights = *weights;
+  return result;
 }
 
 namespace {
@@ -439,12 +444,13 @@ bool no_relevant_critical_point(const FilteredFunction<2>& f, const Box<2>& box,
       [&] { return coarse(net) && may_gain(f, net); });
 }
 
-#define ENCASE_INSTANTIATE(D)                                                                   \
-  template bool excluded<D>(const SystemNets<D>&);                                              \
-  template std::optional<Contraction<D>> contraction<D>(const SystemNets<D>&, double);          \
-  template std::optional<Sign> sign_on_box(const FilteredFunction<D>&, const Box<D>&, Kernel&); \
-  template bool no_common_zero<D>(const System<D>&, const Box<D>&, Kernel&);                    \
-  template bool at_most_one_zero<D>(const System<D>&, const Box<D>&, Kernel&);                  \
+#define ENCASE_INSTANTIATE(D)                                                                     \
+  template bool excluded<D>(const SystemNets<D>&);                                                \
+  template std::optional<Contraction<D>> contraction<D>(const SystemNets<D>&, double);            \
+  template std::optional<std::array<double, D>> contracting_weights<D>(const Matrix<D>&, double); \
+  template std::optional<Sign> sign_on_box(const FilteredFunction<D>&, const Box<D>&, Kernel&);   \
+  template bool no_common_zero<D>(const System<D>&, const Box<D>&, Kernel&);                      \
+  template bool at_most_one_zero<D>(const System<D>&, const Box<D>&, Kernel&);                    \
   template bool exactly_one_zero<D>(const System<D>&, const Box<D>&, Kernel&);
 ENCASE_INSTANTIATE(1)
 ENCASE_INSTANTIATE(2)

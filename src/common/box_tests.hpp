@@ -39,6 +39,10 @@ struct Contraction {
 template <int D>
 std::optional<Contraction<D>> contraction(const SystemNets<D>& nets, double quality = 1.0);
 
+/// A positive vector v with E v < quality v for a matrix of bounds, if there is one.
+template <int D>
+std::optional<std::array<double, D>> contracting_weights(const Matrix<D>& bound, double quality);
+
 /// How hard a box test tries.
 enum class Effort { Quick, Thorough };
 
