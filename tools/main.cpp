@@ -188,12 +188,17 @@ void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
   c->add_option("--region", r.region,
                 "\"box x0 x1 y0 y1 z0 z1\" or \"halfspaces (a,b,c,d) ...\"; overrides the file's")
       ->type_name("REGION");
+  c->add_option("--mesh", r.mesh, "write the surfaces for OpenMesh: .om, .off, .obj or .ply")
+      ->type_name("FILE");
   c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");
   c->add_flag("--history", r.history, "with -o: the splitting as a .pvd with time steps");
   c->add_option("--tolerance", r.tolerance,
                 "of curves and meshes, in input units; by default 1/1000 of the region's size")
       ->type_name("T")
       ->check(CLI::PositiveNumber);
+  c->add_option("--angle", r.angle, "of meshes: between normals of triangles and surfaces, radians")
+      ->type_name("A")
+      ->capture_default_str();
   c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
   c->add_option("--perturb", r.perturbation, "perturb every coefficient c by up to DELTA (1 + |c|)")
       ->type_name("DELTA")

@@ -131,6 +131,19 @@ std::string report(const SurfaceEncasement& e) {
   return text;
 }
 
+std::string mesh_report(const SurfaceEncasement& e, const std::vector<SurfaceMesh>& meshes) {
+  std::string text = "\nmeshes\n";
+  auto out = std::back_inserter(text);
+  for (const SurfaceMesh& mesh : meshes)
+    fmt::format_to(out,
+                   "  {}: {}, {}, Euler characteristic {}, within {:.2e} and {:.3g} radians{}{}\n",
+                   e.surfaces[mesh.surface].name, counted(mesh.points.size(), "point"),
+                   counted(mesh.triangles.size(), "triangle"), mesh.euler, mesh.distance,
+                   mesh.angle, mesh.within_tolerance ? "" : ", which is not what was asked",
+                   mesh.complete ? "" : ", incomplete");
+  return text;
+}
+
 std::string statistics_report(const SurfaceEncasement& e) {
   const SpaceStatistics& s = e.statistics;
   int depth = 0;

@@ -5,12 +5,15 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <random>
 #include <string>
 #include <utility>
 
 #include "common/perturb.hpp"
+#include "encase/intersection_curves.hpp"
+#include "encase/surface_mesh.hpp"
 #include "encase/surface_result_json.hpp"
 #include "output.hpp"
 #include "progress.hpp"
@@ -18,6 +21,9 @@
 #include "surfaces_input.hpp"
 #ifdef ENCASE_HAVE_VTK
 #include "encase/surface_vtk.hpp"
+#endif
+#ifdef ENCASE_HAVE_OPEN_MESH
+#include "encase/surface_mesh_file.hpp"
 #endif
 
 namespace encase {
@@ -37,12 +43,23 @@ Status check_request(const SurfacesRequest& r) {
     return bad_input("--max-seconds must be a finite number");
   if (!(r.perturbation >= 0 && r.perturbation < 1))
     return bad_input("--perturb must be between 0 and 1");
+  if (!(r.angle > 0 && r.angle < 1.5)) return bad_input("--angle must be between 0 and 1.5");
   if (!(r.tolerance >= 0 && std::isfinite(r.tolerance)))
     return bad_input("--tolerance must be a finite positive number");
 #ifndef ENCASE_HAVE_VTK
   if (!r.vtk_directory.empty())
     return bad_input("-o needs VTK, and this encase was built without VTK");
 #endif
+  if (!r.mesh.empty()) {
+#ifdef ENCASE_HAVE_OPEN_MESH
+    const std::string extension = std::filesystem::path(r.mesh).extension().string();
+    if (extension != ".om" && extension != ".off" && extension != ".obj" && extension != ".ply")
+      return bad_input("--mesh writes .om, .off, .obj or .ply, not '" + r.mesh + "'");
+#else
+    return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
+#endif
+  }
+  if (const Status status = check_writable(r.mesh)) return status;
   return check_writable_directory(r.vtk_directory);
 }
 
@@ -57,22 +74,41 @@ Status perturb_all(const SurfacesRequest& r, std::vector<NamedSurface>* surfaces
   return {};
 }
 
-Status write_files(const SurfacesRequest& r, const SurfaceEncasement& encasement) {
+double tolerance(const SurfacesRequest& r, const SurfaceEncasement& encasement) {
+  constexpr double kPart = 1e-3;
+  return r.tolerance > 0 ? r.tolerance
+                         : kPart * encasement.region_used.bounding_box().largest_width();
+}
+
+/// The files asked for, in the order of their options. `notes` is what the report says of them.
+Status write_files(const SurfacesRequest& r, const SurfaceEncasement& encasement,
+                   [[maybe_unused]] std::string* notes) {
+  if (r.mesh.empty() && r.vtk_directory.empty()) return {};
+  SurfaceMeshOptions meshing;
+  meshing.tolerance = tolerance(r, encasement);
+  meshing.angle = r.angle;
+  const auto meshes = mesh(encasement, meshing);
+  if (!meshes) return meshes.error();
+  *notes = mesh_report(encasement, meshes.value());
+#ifdef ENCASE_HAVE_OPEN_MESH
+  if (!r.mesh.empty())
+    if (const Status status = write_open_mesh(meshes.value(), r.mesh)) return status;
+#endif
 #ifdef ENCASE_HAVE_VTK
   if (!r.vtk_directory.empty()) {
-    SurfaceVtkOptions options;
-    options.tolerance = r.tolerance;
-    options.history = r.history;
-    return write_vtk(encasement, r.vtk_directory, options);
+    IntersectionTraceOptions tracing;
+    tracing.tolerance = meshing.tolerance;
+    const auto curves = trace(encasement, tracing);
+    if (!curves) return curves.error();
+    return write_vtk(encasement, curves.value(), meshes.value(), r.vtk_directory, r.history);
   }
-#else
-  (void)r, (void)encasement;
 #endif
   return {};
 }
 
-Status write_report(const SurfacesRequest& r, const SurfaceEncasement& encasement) {
-  std::string text = report(encasement);
+Status write_report(const SurfacesRequest& r, const SurfaceEncasement& encasement,
+                    const std::string& notes) {
+  std::string text = report(encasement) + notes;
   if (r.verbose) text += statistics_report(encasement);
   if (r.summary) {
     if (const Status status = print(summary_json(encasement))) return status;
@@ -94,10 +130,11 @@ ExitCode run_surfaces(SurfacesRequest request) {
   request.options.progress = progress->callback();
   const auto encasement = encase(input.value().surfaces, input.value().region, request.options);
   progress->begin("writing the result");
+  std::string notes;
   Status status =
-      encasement ? write_files(request, encasement.value()) : Status(encasement.error());
+      encasement ? write_files(request, encasement.value(), &notes) : Status(encasement.error());
   progress.reset();
-  if (!status) status = write_report(request, encasement.value());
+  if (!status) status = write_report(request, encasement.value(), notes);
   return status ? fail(*status) : exit_code(encasement.value().outcome);
 }
 

@@ -15,9 +15,11 @@ struct SurfacesRequest {
   std::string file;                      ///< "-" is standard input; empty: `expressions`
   std::vector<std::string> expressions;  ///< of -e
   std::string region;                    ///< of --region, overrides the file's
+  std::string mesh;
   std::string vtk_directory;
   bool history = false;
   double tolerance = 0;  ///< of curves and meshes; 0: 10^-3 of the region's size
+  double angle = 0.2;    ///< of meshes: between triangles' and surfaces' normals
   bool summary = false;
   bool quiet = false;
   bool verbose = false;

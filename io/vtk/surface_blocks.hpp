@@ -21,8 +21,8 @@ inline constexpr std::array<const char*, 7> kSurfaceBlocks = {
 struct SurfaceScene {
   const SurfaceEncasement& encasement;
   std::vector<std::vector<Point<3>>> polygons;  ///< of the facets
-  IntersectionTracing curves;
-  std::vector<SurfaceMesh> meshes;
+  const IntersectionTracing& curves;
+  const std::vector<SurfaceMesh>& meshes;
 };
 
 /// What is said of the whole.
