@@ -188,6 +188,8 @@ void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
   c->add_option("--region", r.region,
                 "\"box x0 x1 y0 y1 z0 z1\" or \"halfspaces (a,b,c,d) ...\"; overrides the file's")
       ->type_name("REGION");
+  c->add_option("--json", r.json, "write the result, everything that proves it included")
+      ->type_name("FILE");
   c->add_option("--mesh", r.mesh, "write the surfaces for OpenMesh: .om, .off, .obj or .ply")
       ->type_name("FILE");
   c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");

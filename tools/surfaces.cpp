@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "surfaces.hpp"
 
-#include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -35,6 +35,8 @@ Status check_request(const SurfacesRequest& r) {
   if (r.file.empty() == r.expressions.empty())
     return bad_input(
         "give either a FILE of surfaces or expressions with -e; see encase surfaces --help");
+  if (r.json == "-" && r.summary)
+    return bad_input("only one of --json - and --summary can have standard output");
   if (r.history && r.vtk_directory.empty())
     return bad_input("--history belongs to the VTK files: give their directory with -o");
   if (r.options.start_bits > r.options.max_bits)
@@ -59,7 +61,8 @@ Status check_request(const SurfacesRequest& r) {
     return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
 #endif
   }
-  if (const Status status = check_writable(r.mesh)) return status;
+  for (const std::string* path : {&r.json, &r.mesh})
+    if (const Status status = check_writable(*path)) return status;
   return check_writable_directory(r.vtk_directory);
 }
 
@@ -83,6 +86,8 @@ double tolerance(const SurfacesRequest& r, const SurfaceEncasement& encasement) 
 /// The files asked for, in the order of their options. `notes` is what the report says of them.
 Status write_files(const SurfacesRequest& r, const SurfaceEncasement& encasement,
                    [[maybe_unused]] std::string* notes) {
+  if (!r.json.empty())
+    if (const Status status = write_output(r.json, to_json(encasement))) return status;
   if (r.mesh.empty() && r.vtk_directory.empty()) return {};
   SurfaceMeshOptions meshing;
   meshing.tolerance = tolerance(r, encasement);
@@ -115,7 +120,10 @@ Status write_report(const SurfacesRequest& r, const SurfaceEncasement& encasemen
     if (r.verbose) std::fputs(text.c_str(), stderr);
     return {};
   }
-  return r.quiet ? Status() : print(text);
+  if (r.quiet) return {};
+  if (r.json != "-") return print(text);
+  std::fputs(text.c_str(), stderr);
+  return {};
 }
 
 }  // namespace
@@ -126,7 +134,8 @@ ExitCode run_surfaces(SurfacesRequest request) {
   if (!input) return fail(input.error());
   if (const Status status = perturb_all(request, &input.value().surfaces)) return fail(*status);
 
-  std::optional<Progress> progress(std::in_place, !request.quiet);
+  const bool on_terminal = request.json == "-" && isatty(STDOUT_FILENO);
+  std::optional<Progress> progress(std::in_place, !request.quiet && !on_terminal);
   request.options.progress = progress->callback();
   const auto encasement = encase(input.value().surfaces, input.value().region, request.options);
   progress->begin("writing the result");

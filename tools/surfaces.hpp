@@ -15,6 +15,7 @@ struct SurfacesRequest {
   std::string file;                      ///< "-" is standard input; empty: `expressions`
   std::vector<std::string> expressions;  ///< of -e
   std::string region;                    ///< of --region, overrides the file's
+  std::string json;
   std::string mesh;
   std::string vtk_directory;
   bool history = false;
