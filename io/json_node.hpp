@@ -107,6 +107,9 @@ class JsonNode {
     fail("unknown word '" + value.substr(0, 40) + "'");
   }
 
+  /// The value as a text.
+  std::string dump() const { return json_->dump(); }
+
   /// A string: an integer or a fraction p/q. No exponents, so that a short text is a small number.
   Rational rational() const {
     const std::string& value = text();
@@ -123,14 +126,18 @@ class JsonNode {
     rational.canonicalize();
     return rational;
   }
-  Point<2> point() const {
-    of_size(2);
-    return {item(0).number(), item(1).number()};
+  template <int D = 2>
+  Point<D> point() const {
+    of_size(D);
+    Point<D> point;
+    for (int axis = 0; axis < D; ++axis) point[axis] = item(axis).number();
+    return point;
   }
-  Box<2> box() const {
-    of_size(2);
-    Box<2> box;
-    for (int axis = 0; axis < 2; ++axis) {
+  template <int D = 2>
+  Box<D> box() const {
+    of_size(D);
+    Box<D> box;
+    for (int axis = 0; axis < D; ++axis) {
       const JsonNode interval = item(axis);
       interval.of_size(2);
       box.lo[axis] = interval.item(0).number();

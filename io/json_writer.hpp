@@ -45,10 +45,14 @@ class JsonWriter {
     raw(value.get_str());
     raw("\"");
   }
-  void put(const Box<2>& box) {
-    raw("[[");
-    put(box.lo[0]), raw(","), put(box.hi[0]), raw("],[");
-    put(box.lo[1]), raw(","), put(box.hi[1]), raw("]]");
+  template <int D>
+  void put(const Box<D>& box) {
+    raw("[");
+    for (int i = 0; i < D; ++i) {
+      raw(i == 0 ? "[" : ",[");
+      put(box.lo[i]), raw(","), put(box.hi[i]), raw("]");
+    }
+    raw("]");
   }
   template <class T, std::size_t N>
   void put(const std::array<T, N>& values) {

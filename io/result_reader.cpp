@@ -10,7 +10,7 @@
 
 #include "arrangement_json.hpp"
 #include "encase/result_json.hpp"
-#include "expression_parser.hpp"
+#include "function_json.hpp"
 #include "json_node.hpp"
 #include "names.hpp"
 
@@ -18,42 +18,6 @@ namespace encase {
 namespace {
 
 using Json = nlohmann::json;
-
-template <int D>
-Polynomial<D> read_terms(const JsonNode& node) {
-  auto terms = node.map([](const JsonNode& term) {
-    term.of_size(D + 1);
-    typename Polynomial<D>::Term read;
-    int left = kMaxDegree;
-    for (int i = 0; i < D; ++i) {
-      read.exponent[i] = static_cast<int>(term.item(i).integer(0, left));
-      left -= read.exponent[i];
-    }
-    read.coefficient = term.item(D).rational();
-    return read;
-  });
-  Polynomial<D> polynomial = Polynomial<D>::from_terms(std::move(terms));
-  if (polynomial.is_constant()) node.fail("the polynomial is constant");
-  return polynomial;
-}
-
-/// What a curve or surface is the zero set of.
-template <int D>
-Function<D> read_function(const JsonNode& named) {
-  if (!named.has("expression")) return read_terms<D>(named.member("terms"));
-  const JsonNode node = named.member("expression");
-  auto expression = parse_expression<D>(node.text());
-  if (const auto* e = std::get_if<SyntaxError>(&expression))
-    node.fail("at character " + std::to_string(e->offset + 1) + ": " + e->message);
-  return std::move(std::get<Expression>(expression));
-}
-
-template <int D>
-std::vector<NamedFunction<D>> read_functions(const JsonNode& list) {
-  return list.map([](const JsonNode& named) {
-    return NamedFunction<D>{named.member("name").text(), read_function<D>(named)};
-  });
-}
 
 SliceSource read_source(const JsonNode& node, std::size_t curves) {
   const auto numbers = [](const JsonNode& item) {

@@ -7,31 +7,12 @@
 
 #include "arrangement_json.hpp"
 #include "encase/result_json.hpp"
+#include "function_json.hpp"
 #include "json_writer.hpp"
 #include "names.hpp"
 
 namespace encase {
 namespace {
-
-template <int D>
-void put_terms(JsonWriter& w, const Polynomial<D>& polynomial) {
-  w.list(polynomial.terms(), [&](const typename Polynomial<D>::Term& term) {
-    w.raw("[");
-    for (const int exponent : term.exponent) w.put(exponent), w.raw(",");
-    w.put(term.coefficient);
-    w.raw("]");
-  });
-}
-
-/// The terms of a polynomial, or an expression as a text.
-template <int D>
-void put_function(JsonWriter& w, const Function<D>& function) {
-  if (function.is_polynomial()) {
-    w.key("terms"), put_terms(w, function.polynomial());
-  } else {
-    w.field("expression", function.to_string());
-  }
-}
 
 void put_region(JsonWriter& w, const Region& region) {
   if (region.plane) return w.put("plane");

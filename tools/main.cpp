@@ -15,6 +15,7 @@
 #include "output.hpp"
 #include "random_curves.hpp"
 #include "slice.hpp"
+#include "surfaces.hpp"
 
 namespace {
 
@@ -33,7 +34,9 @@ void add_threads(CLI::App& command, int& threads, const char* meaning) {
       ->default_str("all processors");
 }
 
-void add_budgets(CLI::App& command, encase::EncaseOptions& options) {
+/// `Options`: EncaseOptions or SurfaceOptions.
+template <class Options>
+void add_budgets(CLI::App& command, Options& options) {
   command.add_option("--max-cells", options.max_cells, "stop at so many cells")
       ->type_name("N")
       ->check(CLI::PositiveNumber)
@@ -175,11 +178,51 @@ void add_slice(CLI::App& app, encase::SliceRequest& r) {
       std::string(kExitCodes));
 }
 
+void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
+  CLI::App* c = app.add_subcommand("surfaces", "Encase surfaces in a convex polyhedron");
+  c->add_option("FILE", r.file, "surfaces and region, as text or JSON; - is standard input");
+  c->add_option("-e", r.expressions, "a surface, instead of FILE: an expression or lhs = rhs")
+      ->type_name("EXPR")
+      ->expected(1)
+      ->take_all();
+  c->add_option("--region", r.region,
+                "\"box x0 x1 y0 y1 z0 z1\" or \"halfspaces (a,b,c,d) ...\"; overrides the file's")
+      ->type_name("REGION");
+  c->add_option("--json", r.json, "write the result, everything that proves it included")
+      ->type_name("FILE");
+  c->add_option("--mesh", r.mesh, "write the surfaces for OpenMesh: .om, .off, .obj or .ply")
+      ->type_name("FILE");
+  c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");
+  c->add_flag("--history", r.history, "with -o: the splitting as a .pvd with time steps");
+  c->add_option("--tolerance", r.tolerance,
+                "of curves and meshes, in input units; by default 1/1000 of the region's size")
+      ->type_name("T")
+      ->check(CLI::PositiveNumber);
+  c->add_option("--angle", r.angle, "of meshes: between normals of triangles and surfaces, radians")
+      ->type_name("A")
+      ->capture_default_str();
+  c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
+  c->add_option("--perturb", r.perturbation, "perturb every coefficient c by up to DELTA (1 + |c|)")
+      ->type_name("DELTA")
+      ->check(CLI::PositiveNumber);
+  c->add_option("--seed", r.seed, "of the perturbation")->type_name("N")->capture_default_str();
+  add_budgets(*c, r.options);
+  c->add_flag("-q", r.quiet, "print no report");
+  c->add_flag("-v", r.verbose, "report what each step did");
+  c->footer(
+      "FILE has lines `name: expression` or `expression` in x, y, z and `region: box x0 x1 y0 y1 "
+      "z0 "
+      "z1`\n"
+      "or `region: halfspaces (a,b,c,d) ...`, each a x + b y + c z + d <= 0; # starts a "
+      "comment.\n\n" +
+      std::string(kExitCodes));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace encase;
-  CLI::App app("Certified encasements of algebraic plane curves", "encase");
+  CLI::App app("Certified encasements of algebraic curves and surfaces", "encase");
   app.set_version_flag("--version", std::string("encase ") + kVersion);
   app.require_subcommand(1);
   app.footer(kExitCodes);
@@ -192,6 +235,9 @@ int main(int argc, char** argv) {
 
   SliceRequest slices;
   add_slice(app, slices);
+
+  SurfacesRequest surfaces;
+  add_surfaces(app, surfaces);
 
   CheckRequest proof;
   CLI::App* check = app.add_subcommand("check", "Prove a result again from its own facts");
@@ -219,6 +265,7 @@ int main(int argc, char** argv) {
     if (*generate) return run_random(random);
     if (app.got_subcommand("caps")) return run_caps(caps);
     if (app.got_subcommand("slice")) return run_slice(slices);
+    if (app.got_subcommand("surfaces")) return run_surfaces(surfaces);
     return run_curves(curves);
   } catch (const std::bad_alloc&) {
     return fail({Error::Code::Undecided, "memory ran out"});

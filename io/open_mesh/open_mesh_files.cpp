@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "encase/open_mesh.hpp"
 
-#include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-#include <OpenMesh/Core/System/omstream.hh>
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <filesystem>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,7 +11,7 @@
 #include "2d/piece_complex.hpp"
 #include "2d/trace.hpp"
 #include "encase/arrangement.hpp"
-#include "encase/atomic_file.hpp"
+#include "io/open_mesh/mesh_file.hpp"
 
 namespace encase {
 namespace {
@@ -29,35 +22,6 @@ using Mesh = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 constexpr double kTolerance = 1e-4;
 
 Error error(Error::Code code, const std::string& message) { return {code, message}; }
-
-/// Keeps OpenMesh from writing to the terminal: what went wrong is in the returned error.
-class Silence {
- public:
-  Silence() {
-    for (std::size_t k = 0; k < streams_.size(); ++k) {
-      was_enabled_[k] = streams_[k]->is_enabled();
-      streams_[k]->disable();
-    }
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-  ~Silence() {
-    for (std::size_t k = 0; k < streams_.size(); ++k)
-      if (was_enabled_[k]) streams_[k]->enable();
-  }
-
- private:
-  std::array<OpenMesh::mostream*, 3> streams_ = {&omlog(), &omout(), &omerr()};
-  std::array<bool, 3> was_enabled_{};
-};
-
-/// The extension in lower case, with its dot.
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 /// What the faces of a mesh say of themselves.
 struct Properties {
@@ -154,26 +118,12 @@ Status build(const Encasement& encasement, const OpenMeshOptions& options, Mesh*
 
 Status write_open_mesh(const Encasement& encasement, const std::string& path,
                        const OpenMeshOptions& options) {
-  const std::string extension = extension_of(path);
-  constexpr std::array<const char*, 4> kFormats = {".om", ".off", ".obj", ".ply"};
-  if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
-    std::string why = extension == ".stl" ? "STL holds triangles only, cells are polygons"
-                                          : "its extension names no mesh format";
-    return error(Error::Code::BadInput,
-                 "cannot write '" + path + "': " + why + "; use .om, .off, .obj or .ply");
-  }
+  const auto format = mesh_format(path);
+  if (!format) return format.error();
   const Silence silence;
   Mesh mesh;
   if (Status bad = build(encasement, options, &mesh)) return bad;
-
-  // Into memory first, so that a failure leaves no half a file.
-  std::ostringstream stream(std::ios::binary);
-  OpenMesh::IO::Options format;
-  if (extension == ".om") format += OpenMesh::IO::Options::Binary;
-  constexpr int kDigits = 17;
-  if (!OpenMesh::IO::write_mesh(mesh, stream, extension, format, kDigits) || !stream)
-    return error(Error::Code::Io, "cannot write '" + path + "': OpenMesh failed to write the mesh");
-  return write_file(path, stream.str());
+  return write_mesh_file(mesh, {}, format.value(), path);
 }
 
 }  // namespace encase

@@ -26,6 +26,7 @@ vtkPolyData* VtkTable::finish(const FieldData& about, bool of_points) {
   for (vtkAbstractArray* array : arrays_)
     (of_points ? static_cast<vtkFieldData*>(data_->GetPointData()) : data_->GetCellData())
         ->AddArray(array);
+  for (vtkAbstractArray* array : point_vectors_) data_->GetPointData()->AddArray(array);
   for (const auto& [name, values] : about) {
     vtkNew<vtkStringArray> array;
     array->SetName(name);

@@ -45,16 +45,34 @@ class VtkTable {
     for (const int k : corners) polygons_->InsertCellPoint(k);
   }
   /// Primitives with points of their own.
-  void polygon(const std::vector<Point<2>>& corners) { primitive(polygons_, corners); }
-  void polyline(const std::vector<Point<2>>& line) { primitive(lines_, line); }
-  void vertex(const Point<2>& p) { primitive(vertices_, {p}); }
+  void polygon(const std::vector<Point<2>>& corners) { primitive<2>(polygons_, corners); }
+  void polyline(const std::vector<Point<2>>& line) { primitive<2>(lines_, line); }
+  void vertex(const Point<2>& p) { primitive<2>(vertices_, {p}); }
   void rectangle(const Box<2>& b) {
-    polygon({{b.lo[0], b.lo[1]}, {b.hi[0], b.lo[1]}, {b.hi[0], b.hi[1]}, {b.lo[0], b.hi[1]}});
+    primitive<2>(polygons_,
+                 {{b.lo[0], b.lo[1]}, {b.hi[0], b.lo[1]}, {b.hi[0], b.hi[1]}, {b.lo[0], b.hi[1]}});
   }
+
+  /// The same in space.
+  void points(const std::vector<Point<3>>& all) {
+    for (const Point<3>& p : all) point(p);
+  }
+  void polygon(const std::vector<Point<3>>& corners) { primitive<3>(polygons_, corners); }
+  void polyline(const std::vector<Point<3>>& line) { primitive<3>(lines_, line); }
+  void vertex(const Point<3>& p) { primitive<3>(vertices_, {p}); }
 
   vtkIntArray* integers(const std::string& name) { return add<vtkIntArray>(name); }
   vtkDoubleArray* doubles(const std::string& name) { return add<vtkDoubleArray>(name); }
   vtkStringArray* strings(const std::string& name) { return add<vtkStringArray>(name); }
+
+  /// A vector for each point, whatever the others belong to.
+  vtkDoubleArray* point_vectors(const std::string& name) {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name.c_str());
+    array->SetNumberOfComponents(3);
+    point_vectors_.emplace_back(array);
+    return array;
+  }
 
   /// The data set; attributes belong to its points if `of_points`, else to its cells.
   vtkPolyData* finish(const FieldData& field_data, bool of_points);
@@ -64,12 +82,13 @@ class VtkTable {
 
  private:
   vtkIdType point(const Point<2>& p) {
-    const Point<3> at = chart_ ? chart_->lift(p) : Point<3>{p[0], p[1], 0};
-    return points_->InsertNextPoint(at.data());
+    return point(chart_ ? chart_->lift(p) : Point<3>{p[0], p[1], 0});
   }
-  void primitive(vtkCellArray* list, const std::vector<Point<2>>& points) {
+  vtkIdType point(const Point<3>& p) { return points_->InsertNextPoint(p.data()); }
+  template <int D>
+  void primitive(vtkCellArray* list, const std::vector<Point<D>>& points) {
     list->InsertNextCell(static_cast<int>(points.size()));
-    for (const Point<2>& p : points) list->InsertCellPoint(point(p));
+    for (const Point<D>& p : points) list->InsertCellPoint(point(p));
   }
   template <class Array>
   Array* add(const std::string& name) {
@@ -82,7 +101,7 @@ class VtkTable {
   vtkNew<vtkPolyData> data_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkCellArray> vertices_, lines_, polygons_;
-  std::vector<vtkSmartPointer<vtkAbstractArray>> arrays_;
+  std::vector<vtkSmartPointer<vtkAbstractArray>> arrays_, point_vectors_;
 };
 
 }  // namespace encase

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "encase/result.hpp"
+#include "encase/surface_encasement.hpp"
+
+namespace encase {
+
+/// A surface as triangles, glued from the patches of its cells. docs/surfaces.md says how.
+struct SurfaceMesh {
+  int surface = -1;
+  std::vector<Point<3>> points;   ///< used by some triangle each
+  std::vector<Point<3>> normals;  ///< of the surface at the points: unit gradients, up to rounding
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from where f > 0
+  std::vector<int> cells;                     ///< of every triangle
+  /// Proved: no point of the triangle is farther than this from the surface, in input units.
+  /// Infinite: nothing is proved.
+  std::vector<double> distances;
+  /// Proved: the angle between the triangle's normal and the surface's gradient at no point of a
+  /// box around the triangle is larger, in radians. Infinite: nothing is proved.
+  std::vector<double> angles;
+
+  double tolerance = 0;          ///< as asked
+  double distance = 0;           ///< the largest one
+  double angle = 0;              ///< the largest one
+  int euler = 0;                 ///< points - edges + triangles
+  bool within_tolerance = true;  ///< distances and angles are at most what was asked
+  /// Every cell that may meet the surface is certified and has its patches here.
+  bool complete = true;
+};
+
+struct SurfaceMeshOptions {
+  double tolerance = 1e-3;  ///< > 0, in input units
+  /// The largest angle between triangle and surface normals, in radians; so adjacent triangles
+  /// turn by at most twice this. > 0.
+  double angle = 0.2;
+  int max_triangles = 4000000;  ///< of all surfaces; no more are made
+  /// As EncaseOptions'; false ends the meshing, which is then Undecided.
+  std::function<bool(const char* stage, double done)> progress;
+};
+
+/// Meshes of all surfaces. Neighbouring patches share the points on the facet between them: the
+/// mesh has boundary edges on the region's boundary only (and next to cells that are not
+/// certified). BadInput if the tolerance or angle is not a positive number. Deterministic. Cost:
+/// some ten microseconds a triangle.
+Result<std::vector<SurfaceMesh>> mesh(const SurfaceEncasement& encasement,
+                                      const SurfaceMeshOptions& options = {});
+
+/// What contradicts a mesh of an encasement's surface, in a sentence; empty if nothing does. Edges
+/// have one or two triangles, which run through it in opposite directions; boundary edges lie on
+/// the region's boundary or next to cells that are not certified; Euler's characteristic is that of
+/// the patches; and every distance and angle is proved again.
+std::string check(const SurfaceMesh& mesh, const SurfaceEncasement& encasement);
+
+}  // namespace encase

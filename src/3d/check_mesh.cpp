@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "3d/triangle_bounds.hpp"
+#include "encase/surface_mesh.hpp"
+#include "encase/surface_topology.hpp"
+
+namespace encase {
+
+namespace {
+
+std::string triangle_name(std::size_t k) { return "triangle " + std::to_string(k); }
+
+/// Whether an edge lies in a side of the region used, up to rounding.
+bool on_boundary(const Point<3>& p, const Point<3>& q, const SurfaceEncasement& e) {
+  const double size = e.region_used.bounding_box().largest_width();
+  for (std::size_t k = 0; k < e.region_used.sides.size(); ++k) {
+    const Plane& plane = e.planes[k];
+    const auto away = [&](const Point<3>& at) {
+      double sum = plane.offset;
+      for (int i = 0; i < 3; ++i) sum += plane.normal[i] * at[i];
+      return std::fabs(sum) / std::hypot(plane.normal[0], plane.normal[1], plane.normal[2]);
+    };
+    if (away(p) <= 0x1p-40 * size && away(q) <= 0x1p-40 * size) return true;
+  }
+  return false;
+}
+
+std::string check_edges(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
+  std::map<std::pair<int, int>, int> half_edges;
+  std::set<std::pair<int, int>> edges;
+  std::set<int> used;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+    for (int i = 0; i < 3; ++i) {
+      const int a = mesh.triangles[k][i], b = mesh.triangles[k][(i + 1) % 3];
+      if (a < 0 || a >= static_cast<int>(mesh.points.size()) || a == b)
+        return triangle_name(k) + " has a corner that is none";
+      if (!half_edges.emplace(std::pair(a, b), static_cast<int>(k)).second)
+        return triangle_name(k) + " and another one run along an edge in the same direction";
+      edges.insert(std::minmax(a, b));
+      used.insert(a);
+    }
+  if (used.size() != mesh.points.size()) return "a point belongs to no triangle";
+  for (const auto& [edge, triangle] : half_edges)
+    if (mesh.complete && !half_edges.contains({edge.second, edge.first}) &&
+        !on_boundary(mesh.points[edge.first], mesh.points[edge.second], e))
+      return triangle_name(triangle) + " ends within the region";
+  const int euler = static_cast<int>(used.size()) - static_cast<int>(edges.size()) +
+                    static_cast<int>(mesh.triangles.size());
+  if (euler != mesh.euler) return "Euler's characteristic is not that of the triangles";
+  if (mesh.complete && euler != surface_topology(e)[mesh.surface].euler)
+    return "Euler's characteristic is not that of the patches";
+  return "";
+}
+
+std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
+  const FilteredFunction<3> function(e.surfaces[mesh.surface].function);
+  const SurfaceBounds bounds(function, e.region_used.bounding_box().largest_width());
+  Kernel kernel;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const auto& [p, q, r] = mesh.triangles[k];
+    const TriangleBounds proved = bound_triangle(
+        bounds, {mesh.points[p], mesh.points[q], mesh.points[r]}, mesh.tolerance, kernel);
+    if (!(proved.distance <= mesh.distances[k]))
+      return "the distance of " + triangle_name(k) + " is not proved";
+    if (!(proved.angle <= mesh.angles[k]))
+      return "the angle of " + triangle_name(k) + " is not proved";
+    if (mesh.distances[k] > mesh.distance || mesh.angles[k] > mesh.angle)
+      return triangle_name(k) + " is farther away or steeper than the mesh says";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string check(const SurfaceMesh& mesh, const SurfaceEncasement& encasement) {
+  const std::size_t count = mesh.triangles.size();
+  if (mesh.surface < 0 || mesh.surface >= static_cast<int>(encasement.surfaces.size()))
+    return "the surface is none of the encasement";
+  if (mesh.cells.size() != count || mesh.distances.size() != count || mesh.angles.size() != count ||
+      mesh.normals.size() != mesh.points.size())
+    return "the lists do not have the same length";
+  for (std::size_t k = 0; k < count; ++k)
+    if (mesh.cells[k] < 0 || mesh.cells[k] >= static_cast<int>(encasement.cells.size()))
+      return triangle_name(k) + " lies in no cell";
+  std::string objection = check_edges(mesh, encasement);
+  return objection.empty() ? check_bounds(mesh, encasement) : objection;
+}
+
+}  // namespace encase

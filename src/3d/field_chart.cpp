@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "3d/field_chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "3d/space_vectors.hpp"
+
+namespace encase {
+
+namespace {
+
+Point<3> centre_of(const GraphCertificate& graph) {
+  return graph.center - (1 / graph.spread) * graph.direction;
+}
+
+/// Twice the signed area of a polygon in the plane of the first two coordinates.
+double doubled_area(const std::vector<Point<3>>& polygon) {
+  double area = 0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Point<3>&p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+    area += p[0] * q[1] - p[1] * q[0];
+  }
+  return area;
+}
+
+/// Directions all around.
+std::vector<Point<3>> directions() {
+  std::vector<Point<3>> all;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z)
+        if (x != 0 || y != 0 || z != 0)
+          all.push_back(
+              unit({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}));
+  return all;
+}
+
+}  // namespace
+
+FieldChart::FieldChart(const GraphCertificate& graph, const std::vector<Point<3>>& boundary) {
+  if (graph.spread == 0) {
+    origin_ = boundary.front();
+    w_ = unit(graph.direction);
+    const auto basis = across(w_);
+    u_ = basis[0];
+    v_ = basis[1];
+    return;
+  }
+  kind_ = Kind::Stereographic;
+  outward_ = graph.spread > 0 ? 1 : -1;
+  origin_ = centre_of(graph);
+  Point<3> mean{};
+  std::vector<Point<3>> rays;
+  for (const Point<3>& p : boundary) {
+    rays.push_back(unit(p - origin_));
+    mean = mean + rays.back();
+  }
+  // The one opposite to the middle must not be in the patch: then the boundary's image would run
+  // clockwise. The best is as far as can be from the boundary.
+  std::vector<Point<3>> middles = directions();
+  middles.push_back(unit(mean));
+  double best = -1;
+  Point<3> middle = unit(mean);
+  for (const Point<3>& candidate : middles) {
+    double nearest = 2;
+    for (const Point<3>& ray : rays) nearest = std::min(nearest, 1 + dot(ray, candidate));
+    if (!(nearest > best)) continue;
+    look_from(candidate);
+    std::vector<Point<3>> image;
+    for (const Point<3>& p : boundary) image.push_back(coordinates(p));
+    if (!(doubled_area(image) > 0)) continue;
+    best = nearest;
+    middle = candidate;
+  }
+  look_from(middle);
+}
+
+FieldChart::FieldChart(const GraphCertificate& graph)
+    : kind_(Kind::Directions), origin_(centre_of(graph)), outward_(graph.spread > 0 ? 1 : -1) {}
+
+void FieldChart::look_from(const Point<3>& middle) {
+  w_ = middle;
+  const auto basis = across(w_);
+  u_ = outward_ > 0 ? basis[0] : basis[1];
+  v_ = outward_ > 0 ? basis[1] : basis[0];
+}
+
+Point<3> FieldChart::coordinates(const Point<3>& point) const {
+  const Point<3> from = point - origin_;
+  if (kind_ == Kind::Parallel) return {dot(from, u_), dot(from, v_), 0};
+  const Point<3> ray = unit(from);
+  if (kind_ == Kind::Directions) return ray;
+  const double scale = 1 / (1 + dot(ray, w_));
+  return {scale * dot(ray, u_), scale * dot(ray, v_), 0};
+}
+
+bool FieldChart::positive(const Point<3>& a, const Point<3>& b, const Point<3>& c) const {
+  // Differences of coordinates have one rounding, products and sums two more each.
+  constexpr double kError = 0x1p-49;
+  if (kind_ != Kind::Directions) {
+    const Point<3> p = b - a, q = c - a;
+    const double first = p[0] * q[1], second = p[1] * q[0];
+    return first - second > kError * (std::fabs(first) + std::fabs(second));
+  }
+  const Point<3> normal = cross(b, c);
+  const double terms = std::fabs(a[0]) * (std::fabs(b[1] * c[2]) + std::fabs(b[2] * c[1])) +
+                       std::fabs(a[1]) * (std::fabs(b[2] * c[0]) + std::fabs(b[0] * c[2])) +
+                       std::fabs(a[2]) * (std::fabs(b[0] * c[1]) + std::fabs(b[1] * c[0]));
+  return outward_ * dot(a, normal) > kError * terms;
+}
+
+FieldChart::Line FieldChart::line(const Point<3>& c) const {
+  if (kind_ == Kind::Parallel) return {origin_ + (c[0] * u_ + c[1] * v_), w_};
+  if (kind_ == Kind::Directions) return {origin_, outward_ * unit(c)};
+  const double r = c[0] * c[0] + c[1] * c[1];
+  const Point<3> ray = (2 * c[0]) * u_ + ((2 * c[1]) * v_ + (1 - r) * w_);
+  return {origin_, outward_ * unit(ray)};
+}
+
+}  // namespace encase

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "3d/field_chart.hpp"
+#include "3d/triangle_bounds.hpp"
+
+namespace encase {
+
+/// What a mesh is to meet.
+struct MeshGoal {
+  double tolerance = 0;
+  double angle = 0;
+  double least_length = 0;  ///< edges shorter than this are not divided
+  int most_triangles = 0;
+};
+
+/// Triangles of one patch of a surface. Corners are places in a list of points shared with other
+/// patches.
+class PatchMesh {
+ public:
+  struct Triangle {
+    std::array<int, 3> corners;     ///< places in this mesh
+    std::array<int, 3> neighbours;  ///< across the edge from corner i to the next; -1: none
+    TriangleBounds bounds;
+    bool given_up = false;
+  };
+
+  /// `points` is added to; all are to outlive this. The lines of the chart meet the surface at most
+  /// once in the box of the certificate.
+  PatchMesh(const FieldChart& chart, const GraphCertificate& graph, const SurfaceBounds& surface,
+            const MeshGoal& goal, std::vector<Point<3>>* points, Kernel& kernel)
+      : chart_(chart),
+        graph_(graph),
+        surface_(surface),
+        goal_(goal),
+        points_(*points),
+        kernel_(kernel) {}
+
+  /// Triangles between the points of a closed boundary, in its order.
+  bool fill(const std::vector<int>& boundary);
+  /// An octahedron around the centre of the field. False if its corners are not found.
+  bool surround(const Box<3>& cell);
+  /// Divides triangles until they meet the goal, as far as that is possible without new points on
+  /// the boundary.
+  void refine();
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// A corner's place in the list of points.
+  int point(int corner) const { return ids_[corner]; }
+  /// Edges of the boundary that stand in the way of the goal, by the places of their points.
+  const std::vector<std::pair<int, int>>& too_long() const { return too_long_; }
+
+ private:
+  int add(int id);
+  const Point<3>& at(int corner) const { return points_[ids_[corner]]; }
+  bool positive(int a, int b, int c) const {
+    return chart_.positive(coordinates_[a], coordinates_[b], coordinates_[c]);
+  }
+  void join_neighbours();
+  bool lift(const FieldChart::Line& line, double guess, Point<3>* point) const;
+  void divide(int triangle, std::vector<int>* changed);
+  bool split(int triangle, int edge, std::vector<int>* changed);
+  bool wants_flip(int triangle, int edge) const;
+  void flip(int triangle, int edge);
+  void make_delaunay(std::vector<int> work, std::vector<int>* changed);
+  int edge_towards(int triangle, int neighbour) const;
+  void replace_neighbour(int triangle, int before, int after);
+
+  const FieldChart& chart_;
+  const GraphCertificate& graph_;
+  const SurfaceBounds& surface_;
+  const MeshGoal& goal_;
+  std::vector<Point<3>>& points_;
+  Kernel& kernel_;
+  std::vector<int> ids_;
+  std::vector<Point<3>> coordinates_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::pair<int, int>> too_long_;
+};
+
+}  // namespace encase

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "3d/surface_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/bernstein.hpp"
+
+namespace encase {
+
+namespace {
+
+Interval range(const Bernstein<3>& net) {
+  const auto [least, largest] = std::minmax_element(net.b.begin(), net.b.end());
+  return Interval(*least, *largest) + Interval(-net.radius, net.radius);
+}
+
+}  // namespace
+
+Interval dot(const IntervalVector& a, const IntervalVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Interval DerivativeRanges::second_along(const IntervalVector& u) const {
+  Interval sum(0);
+  for (int i = 0; i < 3; ++i) sum = sum + dot(second[i], u) * u[i];
+  return sum;
+}
+
+Box<3> inflated(const Box<3>& box, double by) {
+  Box<3> larger;
+  for (int i = 0; i < 3; ++i) {
+    larger.lo[i] = round_down(box.lo[i] - by);
+    larger.hi[i] = round_up(box.hi[i] + by);
+  }
+  return larger;
+}
+
+Interval SurfaceBounds::value(const Point<3>& point, int bits) const {
+  const auto [value, error] = f_->evaluate(point, bits);
+  return Interval(value) + Interval(-error, error);
+}
+
+/// A net with the factors that take derivatives in its coordinates to those in input coordinates.
+struct SurfaceBounds::Net {
+  Bernstein<3> net;
+  IntervalVector per_unit;
+
+  Bernstein<3> derivative(const Bernstein<3>& of, int axis) const {
+    Bernstein<3> result;
+    differentiate(of, axis, &result);
+    return result;
+  }
+};
+
+SurfaceBounds::Net SurfaceBounds::expand(const Box<3>& box, int bits, Kernel& kernel) const {
+  // A net's rounding errors are about 2^-bits of the function's terms; second derivatives divide
+  // them by the square of the box's width.
+  const double least = std::ldexp(size_, bits <= 64 ? -16 : -bits / 3);
+  Box<3> large = box;
+  Net result;
+  for (int i = 0; i < 3; ++i) {
+    const double missing = least - 0.5 * box.width(i);
+    if (missing > 0) {
+      large.lo[i] = box.lo[i] - missing;
+      large.hi[i] = box.hi[i] + missing;
+    }
+    // The net's coordinates have a half width that is this one up to roundings (Centered).
+    const double half = centered(large.lo[i], large.hi[i]).half;
+    result.per_unit[i] = Interval(1) / Interval(half * (1 - 0x1p-48), half * (1 + 0x1p-48));
+  }
+  f_->expand(large, f_->degree(), bits, kernel, &result.net);
+  return result;
+}
+
+IntervalVector SurfaceBounds::gradient(const Box<3>& box, int bits, Kernel& kernel) const {
+  const Net f = expand(box, bits, kernel);
+  IntervalVector result;
+  for (int i = 0; i < 3; ++i) result[i] = range(f.derivative(f.net, i)) * f.per_unit[i];
+  return result;
+}
+
+DerivativeRanges SurfaceBounds::derivatives(const Box<3>& box, int bits, Kernel& kernel) const {
+  const Net f = expand(box, bits, kernel);
+  DerivativeRanges result;
+  for (int i = 0; i < 3; ++i) {
+    const Bernstein<3> slope = f.derivative(f.net, i);
+    result.first[i] = range(slope) * f.per_unit[i];
+    for (int j = i; j < 3; ++j)
+      result.second[i][j] = result.second[j][i] =
+          range(f.derivative(slope, j)) * (f.per_unit[i] * f.per_unit[j]);
+  }
+  return result;
+}
+
+}  // namespace encase

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "common/filtered_function.hpp"
+#include "common/interval.hpp"
+#include "common/kernel.hpp"
+#include "encase/geometry.hpp"
+
+/// Proved bounds of a surface's function near a place, for tracing and meshing.
+namespace encase {
+
+using IntervalVector = std::array<Interval, 3>;
+
+/// The largest absolute value.
+inline double magnitude(const Interval& a) { return std::fmax(std::fabs(a.lo), std::fabs(a.hi)); }
+
+Interval dot(const IntervalVector& a, const IntervalVector& b);
+/// A point's coordinates as intervals.
+inline IntervalVector exactly(const Point<3>& p) { return {p[0], p[1], p[2]}; }
+
+/// Ranges of the derivatives of a function on a closed box, in input coordinates.
+struct DerivativeRanges {
+  IntervalVector first;
+  std::array<IntervalVector, 3> second;
+
+  /// The second derivative in a direction: u^T H u.
+  Interval second_along(const IntervalVector& u) const;
+};
+
+/// The box with every side moved outward by at least `by`.
+Box<3> inflated(const Box<3>& box, double by);
+
+/// A function with bounds in a region of a given size. Values are scaled as FilteredFunction's.
+class SurfaceBounds {
+ public:
+  /// `f` is to outlive this. `size`: of the region; much smaller boxes are enlarged, so that
+  /// rounding does not drown what the function does in them.
+  SurfaceBounds(const FilteredFunction<3>& f, double size) : f_(&f), size_(size) {}
+
+  const FilteredFunction<3>& function() const { return *f_; }
+
+  /// The value at a point. With `bits` more than 53 from arithmetic of that precision, still as
+  /// doubles.
+  Interval value(const Point<3>& point, int bits) const;
+  /// What derivatives are on the box, and first ones only.
+  DerivativeRanges derivatives(const Box<3>& box, int bits, Kernel& kernel) const;
+  IntervalVector gradient(const Box<3>& box, int bits, Kernel& kernel) const;
+
+ private:
+  struct Net;
+  Net expand(const Box<3>& box, int bits, Kernel& kernel) const;
+
+  const FilteredFunction<3>* f_;
+  double size_;
+};
+
+}  // namespace encase

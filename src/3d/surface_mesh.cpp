@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "encase/surface_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "3d/facet_lines.hpp"
+#include "3d/patch_mesh.hpp"
+#include "3d/space_vectors.hpp"
+#include "encase/surface_topology.hpp"
+
+namespace encase {
+
+namespace {
+
+/// How often boundaries are refined where patches need it.
+constexpr int kMaxRounds = 14;
+
+class Mesher {
+ public:
+  Mesher(const SurfaceEncasement& encasement, const SurfaceMeshOptions& options)
+      : encasement_(encasement), options_(options), left_(options.max_triangles) {
+    const double size = encasement.region_used.bounding_box().largest_width();
+    goal_.tolerance = options.tolerance;
+    goal_.angle = options.angle;
+    goal_.least_length = 0x1p-20 * size;
+    functions_.reserve(encasement.surfaces.size());
+    for (const Surface& surface : encasement.surfaces) functions_.emplace_back(surface.function);
+    for (const auto& function : functions_) bounds_.emplace_back(function, size);
+    lines_ = std::make_unique<FacetLines>(encasement, functions_, options.tolerance, &points_);
+    collect_patches();
+  }
+
+  Result<std::vector<SurfaceMesh>> meshes() {
+    for (int round = 0; round < kMaxRounds; ++round) {
+      for (std::size_t k = 0; k < patches_.size(); ++k) {
+        if (!patches_[k].stale) continue;
+        if (cancelled(static_cast<double>(k) / static_cast<double>(patches_.size())))
+          return Error{Error::Code::Undecided, "the meshing was cancelled"};
+        make(&patches_[k]);
+      }
+      if (!divide_lines()) break;
+    }
+    std::vector<SurfaceMesh> result;
+    for (int s = 0; s < static_cast<int>(encasement_.surfaces.size()); ++s)
+      result.push_back(assemble(s));
+    return result;
+  }
+
+ private:
+  struct Patch {
+    int cell = -1;
+    const SurfacePatch* patch = nullptr;
+    const GraphCertificate* graph = nullptr;
+    bool stale = true;
+    bool failed = false;
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<TriangleBounds> bounds;
+    std::vector<std::pair<int, int>> too_long;
+  };
+
+  bool cancelled(double done) const {
+    return options_.progress && !options_.progress("meshing", done);
+  }
+
+  void collect_patches() {
+    users_.resize(static_cast<std::size_t>(lines_->count()));
+    for (std::size_t c = 0; c < encasement_.cells.size(); ++c) {
+      const SpaceCell& cell = encasement_.cells[c];
+      for (const SurfacePatch& patch : cell.patches) {
+        Patch entry;
+        entry.cell = static_cast<int>(c);
+        entry.patch = &patch;
+        for (const int g : cell.graphs)
+          if (encasement_.graph_certificates[g].surface == patch.surface)
+            entry.graph = &encasement_.graph_certificates[g];
+        for (const FacetEdge& edge : patch.loop) {
+          const int line = lines_->line(edge);
+          if (line >= 0)
+            users_[line].push_back(static_cast<int>(patches_.size()));
+          else
+            entry.failed = true;
+        }
+        entry.failed = entry.failed || !entry.graph;
+        entry.stale = !entry.failed;
+        patches_.push_back(std::move(entry));
+      }
+    }
+  }
+
+  void make(Patch* patch) {
+    patch->stale = false;
+    left_ += static_cast<int>(patch->triangles.size());
+    patch->triangles.clear();
+    patch->bounds.clear();
+    patch->too_long.clear();
+    std::vector<int> boundary;
+    std::vector<Point<3>> corners;
+    for (const FacetEdge& edge : patch->patch->loop)
+      for (const int p : lines_->along(edge)) {
+        boundary.push_back(p);
+        corners.push_back(points_[p]);
+      }
+    const FieldChart chart =
+        boundary.empty() ? FieldChart(*patch->graph) : FieldChart(*patch->graph, corners);
+    goal_.most_triangles = std::max(left_, 0);
+    PatchMesh mesh(chart, *patch->graph, bounds_[patch->patch->surface], goal_, &points_, kernel_);
+    patch->failed = !(boundary.empty() ? mesh.surround(encasement_.cells[patch->cell].box)
+                                       : mesh.fill(boundary));
+    if (patch->failed) return;
+    mesh.refine();
+    for (const PatchMesh::Triangle& t : mesh.triangles()) {
+      patch->triangles.push_back(
+          {mesh.point(t.corners[0]), mesh.point(t.corners[1]), mesh.point(t.corners[2])});
+      patch->bounds.push_back(t.bounds);
+    }
+    patch->too_long = mesh.too_long();
+    left_ -= static_cast<int>(patch->triangles.size());
+  }
+
+  /// Where a patch has edges of its boundary that are too long; false if none has.
+  bool divide_lines() {
+    std::set<std::pair<int, int>> segments;
+    for (const Patch& patch : patches_)
+      for (const auto& [a, b] : patch.too_long)
+        if (length(points_[a] - points_[b]) >= goal_.least_length)
+          segments.insert({std::min(a, b), std::max(a, b)});
+    bool divided = false;
+    for (const auto& segment : segments) {
+      const int line = lines_->divide(segment);
+      if (line < 0) continue;
+      divided = true;
+      for (const int patch : users_[line]) patches_[patch].stale = true;
+    }
+    return divided && left_ > 0;
+  }
+
+  SurfaceMesh assemble(int surface) const {
+    SurfaceMesh mesh;
+    mesh.surface = surface;
+    mesh.tolerance = options_.tolerance;
+    mesh.complete = surface_topology(encasement_)[surface].complete;
+    std::map<int, int> number;
+    std::set<std::pair<int, int>> edges;
+    for (const Patch& patch : patches_) {
+      if (patch.patch->surface != surface) continue;
+      mesh.complete = mesh.complete && !patch.failed;
+      for (std::size_t k = 0; k < patch.triangles.size(); ++k) {
+        std::array<int, 3> triangle;
+        for (int i = 0; i < 3; ++i) {
+          const int p = patch.triangles[k][i];
+          const auto [place, is_new] = number.emplace(p, static_cast<int>(mesh.points.size()));
+          if (is_new) {
+            mesh.points.push_back(points_[p]);
+            mesh.normals.push_back(unit(functions_[surface].gradient(points_[p])));
+          }
+          triangle[i] = place->second;
+        }
+        for (int i = 0; i < 3; ++i) edges.insert(std::minmax(triangle[i], triangle[(i + 1) % 3]));
+        mesh.triangles.push_back(triangle);
+        mesh.cells.push_back(patch.cell);
+        mesh.distances.push_back(patch.bounds[k].distance);
+        mesh.angles.push_back(patch.bounds[k].angle);
+        mesh.distance = std::max(mesh.distance, patch.bounds[k].distance);
+        mesh.angle = std::max(mesh.angle, patch.bounds[k].angle);
+      }
+    }
+    mesh.euler = static_cast<int>(mesh.points.size()) - static_cast<int>(edges.size()) +
+                 static_cast<int>(mesh.triangles.size());
+    mesh.within_tolerance = mesh.distance <= options_.tolerance && mesh.angle <= options_.angle;
+    return mesh;
+  }
+
+  const SurfaceEncasement& encasement_;
+  const SurfaceMeshOptions& options_;
+  MeshGoal goal_;
+  int left_;  ///< triangles that may still be made
+  Kernel kernel_;
+  std::vector<FilteredFunction<3>> functions_;
+  std::vector<SurfaceBounds> bounds_;
+  std::vector<Point<3>> points_;  ///< of all patches and lines
+  std::unique_ptr<FacetLines> lines_;
+  std::vector<Patch> patches_;
+  std::vector<std::vector<int>> users_;  ///< the patches along every line
+};
+
+}  // namespace
+
+Result<std::vector<SurfaceMesh>> mesh(const SurfaceEncasement& encasement,
+                                      const SurfaceMeshOptions& options) {
+  if (!(options.tolerance > 0) || !(options.angle > 0))
+    return Error{Error::Code::BadInput, "a mesh's tolerance and angle must be positive numbers"};
+  return Mesher(encasement, options).meshes();
+}
+
+}  // namespace encase

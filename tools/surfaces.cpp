@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "surfaces.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "common/perturb.hpp"
+#include "encase/intersection_curves.hpp"
+#include "encase/surface_mesh.hpp"
+#include "encase/surface_result_json.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "surface_report.hpp"
+#include "surfaces_input.hpp"
+#ifdef ENCASE_HAVE_VTK
+#include "encase/surface_vtk.hpp"
+#endif
+#ifdef ENCASE_HAVE_OPEN_MESH
+#include "encase/surface_mesh_file.hpp"
+#endif
+
+namespace encase {
+namespace {
+
+Error bad_input(const std::string& message) { return {Error::Code::BadInput, message}; }
+
+Status check_request(const SurfacesRequest& r) {
+  if (r.file.empty() == r.expressions.empty())
+    return bad_input(
+        "give either a FILE of surfaces or expressions with -e; see encase surfaces --help");
+  if (r.json == "-" && r.summary)
+    return bad_input("only one of --json - and --summary can have standard output");
+  if (r.history && r.vtk_directory.empty())
+    return bad_input("--history belongs to the VTK files: give their directory with -o");
+  if (r.options.start_bits > r.options.max_bits)
+    return bad_input("--start-bits is above --max-bits");
+  if (!std::isfinite(r.options.max_seconds))
+    return bad_input("--max-seconds must be a finite number");
+  if (!(r.perturbation >= 0 && r.perturbation < 1))
+    return bad_input("--perturb must be between 0 and 1");
+  if (!(r.angle > 0 && r.angle < 1.5)) return bad_input("--angle must be between 0 and 1.5");
+  if (!(r.tolerance >= 0 && std::isfinite(r.tolerance)))
+    return bad_input("--tolerance must be a finite positive number");
+#ifndef ENCASE_HAVE_VTK
+  if (!r.vtk_directory.empty())
+    return bad_input("-o needs VTK, and this encase was built without VTK");
+#endif
+  if (!r.mesh.empty()) {
+#ifdef ENCASE_HAVE_OPEN_MESH
+    const std::string extension = std::filesystem::path(r.mesh).extension().string();
+    if (extension != ".om" && extension != ".off" && extension != ".obj" && extension != ".ply")
+      return bad_input("--mesh writes .om, .off, .obj or .ply, not '" + r.mesh + "'");
+#else
+    return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
+#endif
+  }
+  for (const std::string* path : {&r.json, &r.mesh})
+    if (const Status status = check_writable(*path)) return status;
+  return check_writable_directory(r.vtk_directory);
+}
+
+Status perturb_all(const SurfacesRequest& r, std::vector<NamedSurface>* surfaces) {
+  if (r.perturbation == 0) return {};
+  std::mt19937_64 generator(r.seed);
+  for (NamedSurface& surface : *surfaces) {
+    if (!surface.function.is_polynomial())
+      return bad_input("surface '" + surface.name + "' is no polynomial and cannot be perturbed");
+    surface.function = perturb(surface.function.polynomial(), r.perturbation, generator);
+  }
+  return {};
+}
+
+double tolerance(const SurfacesRequest& r, const SurfaceEncasement& encasement) {
+  constexpr double kPart = 1e-3;
+  return r.tolerance > 0 ? r.tolerance
+                         : kPart * encasement.region_used.bounding_box().largest_width();
+}
+
+/// The files asked for, in the order of their options. `notes` is what the report says of them.
+Status write_files(const SurfacesRequest& r, const SurfaceEncasement& encasement,
+                   [[maybe_unused]] std::string* notes) {
+  if (!r.json.empty())
+    if (const Status status = write_output(r.json, to_json(encasement))) return status;
+  if (r.mesh.empty() && r.vtk_directory.empty()) return {};
+  SurfaceMeshOptions meshing;
+  meshing.tolerance = tolerance(r, encasement);
+  meshing.angle = r.angle;
+  const auto meshes = mesh(encasement, meshing);
+  if (!meshes) return meshes.error();
+  *notes = mesh_report(encasement, meshes.value());
+#ifdef ENCASE_HAVE_OPEN_MESH
+  if (!r.mesh.empty())
+    if (const Status status = write_open_mesh(meshes.value(), r.mesh)) return status;
+#endif
+#ifdef ENCASE_HAVE_VTK
+  if (!r.vtk_directory.empty()) {
+    IntersectionTraceOptions tracing;
+    tracing.tolerance = meshing.tolerance;
+    const auto curves = trace(encasement, tracing);
+    if (!curves) return curves.error();
+    return write_vtk(encasement, curves.value(), meshes.value(), r.vtk_directory, r.history);
+  }
+#endif
+  return {};
+}
+
+Status write_report(const SurfacesRequest& r, const SurfaceEncasement& encasement,
+                    const std::string& notes) {
+  std::string text = report(encasement) + notes;
+  if (r.verbose) text += statistics_report(encasement);
+  if (r.summary) {
+    if (const Status status = print(summary_json(encasement))) return status;
+    if (r.verbose) std::fputs(text.c_str(), stderr);
+    return {};
+  }
+  if (r.quiet) return {};
+  if (r.json != "-") return print(text);
+  std::fputs(text.c_str(), stderr);
+  return {};
+}
+
+}  // namespace
+
+ExitCode run_surfaces(SurfacesRequest request) {
+  if (const Status status = check_request(request)) return fail(*status);
+  auto input = read_surfaces_input(request.file, request.expressions, request.region);
+  if (!input) return fail(input.error());
+  if (const Status status = perturb_all(request, &input.value().surfaces)) return fail(*status);
+
+  const bool on_terminal = request.json == "-" && isatty(STDOUT_FILENO);
+  std::optional<Progress> progress(std::in_place, !request.quiet && !on_terminal);
+  request.options.progress = progress->callback();
+  const auto encasement = encase(input.value().surfaces, input.value().region, request.options);
+  progress->begin("writing the result");
+  std::string notes;
+  Status status =
+      encasement ? write_files(request, encasement.value(), &notes) : Status(encasement.error());
+  progress.reset();
+  if (!status) status = write_report(request, encasement.value(), notes);
+  return status ? fail(*status) : exit_code(encasement.value().outcome);
+}
+
+}  // namespace encase
