@@ -87,8 +87,9 @@ class SpaceSearch {
   }
 
   static bool suits(const System<3>& system) {
-    return std::all_of(system.begin(), system.end(),
-                       [](const auto* f) { return degree(*f) < SpaceNet::kMaxCount; });
+    return std::all_of(system.begin(), system.end(), [](const auto* f) {
+      return f->is_polynomial() && degree(*f) < SpaceNet::kMaxCount;
+    });
   }
 
   RootIsolation<3> run() {
@@ -100,8 +101,14 @@ class SpaceSearch {
     else
       waiting_.push_back(root);
     while (!waiting_.empty()) {
-      const std::vector<Part> band = std::exchange(waiting_, {});
-      for (const Part& part : band) {
+      std::vector<Part> band = std::exchange(waiting_, {});
+      for (Part& part : band) {
+        // Fresh nets have the coordinates of a larger box where the centre is not a double.
+        for (int i = 0; i < 3; ++i)
+          if (!centered(part.box.lo[i], part.box.hi[i]).exact) {
+            part.zeros.lo[i] = -1;
+            part.zeros.hi[i] = 1;
+          }
         frames_[0].order = {0, 1, 2};
         for (int i = 0; i < 3; ++i) expand(i, part.box, part.bits[i], &frames_[0]);
         visit(part, 0, 0);
