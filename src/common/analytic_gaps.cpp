@@ -16,6 +16,9 @@ constexpr std::size_t kFew = 128;      // boxes along a line are not halved beyo
 constexpr std::size_t kMany = 4096;    // nor are any others
 constexpr double kLineGrowth = 2.6;    // by which there are more of them on an area
 constexpr double kSmallest = 0x1p-30;  // part of the root's width
+constexpr double kThin = 0x1p-11;      // likewise: boxes are made no thinner by cutting off parts
+constexpr double kWide = 0x1p-6;       // part of its coordinates above which a gap is wide
+constexpr double kUseful = 0.25;       // relative error of a model for which a part is cut off
 constexpr std::size_t kFewGathered = 40;
 constexpr int kGrid = 16;
 
@@ -53,11 +56,37 @@ void join_neighbours(std::vector<Box<2>>* boxes) {
   }
 }
 
+const TaylorModel<2, double>& model_on(const Box<2>& box, const FilteredExpression<2>& f,
+                                       Kernel& kernel) {
+  Point<2> center, half;
+  for (int i = 0; i < 2; ++i) {
+    const Centered chart = centered(box.lo[i], box.hi[i]);
+    center[i] = chart.center;
+    half[i] = chart.half;
+  }
+  return f.model(center, half, kDegree, Kernel::kDoubleBits, kernel);
+}
+
+/// Cuts parts off the sides of a box, ever smaller ones, where f has a model that is of use.
+Box<2> thinned(Box<2> box, const FilteredExpression<2>& f, const Box<2>& root, Kernel& kernel) {
+  for (int i = 0; i < 2; ++i)
+    for (const bool upper : {false, true})
+      for (double part = 0.5 * box.width(i); part > 0.5 * kThin * root.width(i); part *= 0.5) {
+        Box<2> slab = box;
+        (upper ? slab.lo[i] : slab.hi[i]) = upper ? box.hi[i] - part : box.lo[i] + part;
+        const auto& model = model_on(slab, f, kernel);
+        if (model.exists() && model.error <= kUseful * model.polynomial_norm())
+          (upper ? box.hi[i] : box.lo[i]) = upper ? slab.lo[i] : slab.hi[i];
+      }
+  return box;
+}
+
+/// By a part of its width, of a wide one a small part of its coordinates, and by `tiny` of these.
 Box<2> grown(const Box<2>& gap, double part, double tiny) {
   Box<2> result = gap;
   for (int i = 0; i < 2; ++i) {
-    const double margin =
-        part * gap.width(i) + tiny * std::max(std::fabs(gap.lo[i]), std::fabs(gap.hi[i]));
+    const double reach = std::max(std::fabs(gap.lo[i]), std::fabs(gap.hi[i]));
+    const double margin = part * std::min(gap.width(i), kWide * reach) + tiny * reach;
     result.lo[i] -= margin;
     result.hi[i] += margin;
   }
@@ -71,13 +100,7 @@ std::vector<Box<2>> find_gaps(const FilteredExpression<2>& f, const Box<2>& root
   for (std::size_t before = 1; !level.empty(); before = open.size()) {
     open.clear();
     for (const Box<2>& box : level) {
-      Point<2> center, half;
-      for (int i = 0; i < 2; ++i) {
-        const Centered chart = centered(box.lo[i], box.hi[i]);
-        center[i] = chart.center;
-        half[i] = chart.half;
-      }
-      const auto& model = f.model(center, half, kDegree, Kernel::kDoubleBits, kernel);
+      const auto& model = model_on(box, f, kernel);
       if (model.exists()) continue;
       (model.undefined ? gaps : open).push_back(box);
     }
@@ -104,6 +127,8 @@ std::vector<Box<2>> find_gaps(const FilteredExpression<2>& f, const Box<2>& root
     }
   }
   join_neighbours(&gaps);
+  if (gaps.size() <= kFewGathered)
+    for (Box<2>& gap : gaps) gap = thinned(gap, f, root, kernel);
   return gaps;
 }
 
@@ -114,9 +139,7 @@ Relation relation(const Box<2>& box, const std::vector<Box<2>>& gaps) {
   Relation result = Relation::Apart;
   for (const Box<2>& gap : gaps) {
     if (!overlap(box, gap)) continue;
-    if (gap.contains(box) ||
-        (box.width(0) < 0x1p-8 * gap.width(0) && box.width(1) < 0x1p-8 * gap.width(1)))
-      return Relation::Within;
+    if (left_out_at(gap).contains(box)) return Relation::Within;
     result = Relation::Partly;
   }
   return result;

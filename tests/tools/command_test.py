@@ -664,12 +664,20 @@ class Analytic(CommandTest):
             self.encased(encase("check", both), 0)
         self.assertEqual(counts, [[2, 4], [2, 4]])
 
-    def test_poles_are_degenerate_and_all_else_is_certified(self):
-        pole = ("-e", "y = 1/x", "-e", "x^2 + y^2 = 9", "--region", "-4 4 -4 4")
+    def test_poles_hold_no_zeros(self):
+        path = self.path("r.json")
+        run = encase("curves", "-e", "y = tan(x)", "-e", "x y = 1/2 + y/x", "--region", "-5 5 -5 5",
+                     "--json", path, "--summary")
+        self.encased(run, 0)
+        self.assertEqual(json.loads(run.stdout)["crossings"], 5)
+        self.encased(encase("check", path), 0)
+
+    def test_gaps_are_degenerate_and_all_else_is_certified(self):
+        pole = ("-e", "y = exp(1/x)", "-e", "x^2 + y^2 = 9", "--region", "-4 4 -4 4")
         path, folder = self.path("r.json"), self.path("vtk")
         run = encase("curves", *pole, "--json", path, "--summary")
         self.encased(run, 3)
-        self.assertEqual(json.loads(run.stdout)["crossings"], 4)
+        self.assertEqual(json.loads(run.stdout)["crossings"], 3)
         self.encased(encase("check", path), 3)
         run = encase("curves", *pole, "--svg", "-", "--faces", "-q")
         self.encased(run, 3)
