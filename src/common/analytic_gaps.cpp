@@ -18,7 +18,7 @@ constexpr double kLineGrowth = 2.6;    // by which there are more of them on an 
 constexpr double kSmallest = 0x1p-30;  // part of the root's width
 constexpr double kThin = 0x1p-11;      // likewise: boxes are made no thinner by cutting off parts
 constexpr double kWide = 0x1p-6;       // part of its coordinates above which a gap is wide
-constexpr double kUseful = 0.25;       // relative error of a model for which a part is cut off
+constexpr double kUseful = 0x1p-6;     // relative error of a model for which a part is cut off
 constexpr std::size_t kFewGathered = 40;
 constexpr int kGrid = 16;
 
