@@ -103,7 +103,7 @@ TEST(CapsJson, WhatIsNoResultIsRefused) {
           "leaves[0][2]: expected an integer from 0 to " +
               std::to_string(json["curve_sets"].size() - 1));
   refused("/curves/0/expression", "x + 'y'",
-          "curves[0].expression: at character 5: unexpected character ''");
+          "curves[0].expression: at character 5: unexpected character '''");
   refused("/edges/0/vertices/0", 99,
           "edges[0].vertices[0]: expected an integer from 0 to " +
               std::to_string(json["vertices"].size() - 1));
