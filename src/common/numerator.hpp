@@ -7,9 +7,9 @@
 
 namespace encase {
 
-/// An expression f without its quotients: where none of the divisors is zero, f is the numerator
-/// divided by a function without zeros, so that both have the same zeros there, and f has a value
-/// if and only if the numerator has one. Elsewhere f has no value.
+/// An expression f without its quotients. Where all divisors have values and none of these is zero,
+/// f is the numerator divided by a product of divisors: both have values at the same points and the
+/// same zeros. Elsewhere f has no value.
 struct Numerator {
   Expression numerator;
   std::vector<Expression> divisors;  ///< that are no constants
