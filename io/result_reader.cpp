@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "arrangement_json.hpp"
+#include "caps_json.hpp"
+#include "encase/caps_output.hpp"
 #include "encase/result_json.hpp"
 #include "function_json.hpp"
 #include "json_node.hpp"
@@ -232,16 +234,18 @@ Statistics read_statistics(const JsonNode& node) {
   return s;
 }
 
-Encasement read_encasement(const JsonNode& root) {
+void check_format(const JsonNode& root) {
   if (root.member("format").text() != "encase-result")
     root.member("format").fail("this is not a result of encase");
   const JsonNode version = root.member("version");
   if (version.integer(0, std::numeric_limits<int>::max()) != kResultVersion)
     version.fail("this version of encase reads version " + std::to_string(kResultVersion) +
                  " only");
+}
+
+Encasement read_encasement(const JsonNode& root) {
   if (root.member("command").text() != "curves" && root.member("command").text() != "slice")
-    root.member("command").fail(
-        "this version of encase reads results of 'curves' and 'slice' only");
+    root.member("command").fail("expected a result of 'curves' or 'slice'");
 
   Encasement e;
   e.outcome = root.member("status").one_of(kOutcomes);
@@ -309,23 +313,46 @@ std::string plain(const Json::exception& exception) {
   return end == text.npos ? text : text.substr(end + 2);
 }
 
-}  // namespace
+StoredResult read_stored(const JsonNode& root) {
+  StoredResult result{read_encasement(root), std::nullopt, std::nullopt};
+  if (root.member("command").text() == "slice")
+    result.source = read_source(root.member("slice"), result.encasement.input.size());
+  if (root.has("arrangement"))
+    result.arrangement = read_arrangement(root.member("arrangement"), result.encasement);
+  return result;
+}
 
-Result<StoredResult> result_from_json(const std::string& text, const std::string& file_name) {
+/// What `read` makes of the document, which must be a result of encase.
+template <class Read>
+auto read_document(const std::string& text, const std::string& file_name, const Read& read)
+    -> Result<decltype(read(std::declval<const JsonNode&>()))> {
   try {
     const Json json = Json::parse(text);
     const JsonNode root(json);
-    StoredResult result{read_encasement(root), std::nullopt, std::nullopt};
-    if (root.member("command").text() == "slice")
-      result.source = read_source(root.member("slice"), result.encasement.input.size());
-    if (root.has("arrangement"))
-      result.arrangement = read_arrangement(root.member("arrangement"), result.encasement);
-    return result;
+    check_format(root);
+    return read(root);
   } catch (const Malformed& malformed) {
     return Error{Error::Code::BadInput, file_name + ": " + malformed.what};
   } catch (const Json::exception& exception) {
     return Error{Error::Code::BadInput, file_name + ": " + plain(exception)};
   }
+}
+
+}  // namespace
+
+Result<StoredResult> result_from_json(const std::string& text, const std::string& file_name) {
+  return read_document(text, file_name, read_stored);
+}
+
+Result<CapsResult> caps_from_json(const std::string& text, const std::string& file_name) {
+  return read_document(text, file_name, read_caps);
+}
+
+Result<AnyResult> any_result_from_json(const std::string& text, const std::string& file_name) {
+  return read_document(text, file_name, [](const JsonNode& root) -> AnyResult {
+    if (root.member("command").text() == "caps") return read_caps(root);
+    return read_stored(root);
+  });
 }
 
 Result<Encasement> encasement_from_json(const std::string& text, const std::string& file_name) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "encase/curves_file.hpp"
 #include "encase/encasement.hpp"
 
 namespace encase::analytic {
@@ -68,32 +69,16 @@ inline Scene waves() {
   return scene("waves", f, g, -3, 3);
 }
 
-/// Of the test suite of Chebfun, and one of Stan Wagon's.
+/// The files of tests/data/curves with functions that are not polynomials: of the test suite of
+/// Chebfun, and one of Stan Wagon's.
 inline std::vector<Scene> suite() {
   std::vector<Scene> scenes;
-  const Expression pi = Expression::pi();
-  scenes.push_back(scene("chebsuite_2_1", cos(c(10) * x() * y()),
-                         Polynomial<2>::from_terms({{{1, 0}, Rational(1)}, {{0, 2}, Rational(1)}}),
-                         -1, 1));
-  scenes.push_back(scene("chebsuite_2_3", sin(c(4) * (x() + y() / c(10) + pi / c(10))),
-                         cos(c(2) * (x() - c(2) * y() + pi / c(7))), -1, 1));
-  scenes.push_back(scene(
-      "chebsuite_2_4",
-      exp(x() - c(2) * x().power(2) - y().power(2)) * sin(c(10) * (x() + y() + x() * y().power(2))),
-      exp(-x() + c(2) * y().power(2) + x() * y().power(2)) *
-          sin(c(10) * (x() - y() - c(2) * x() * y().power(2))),
-      -1, 1));
-  scenes.push_back(scene(
-      "chebsuite_5_1", c(2) * x() * y() * cos(y().power(2)) * cos(c(2) * x()) - cos(x() * y()),
-      c(2) * sin(x() * y().power(2)) * sin(c(3) * x() * y()) - sin(x() * y()), -2, 2));
-  scenes.push_back(
-      scene("chebsuite_8_1", sin(c(10) * x() - y() / c(10)), cos(c(3) * x() * y()), -1, 1));
-  scenes.push_back(scene("chebsuite_9_1", conic(1, 1, Rational(-81, 100)), sin(x() * y()), -1, 1));
-  scenes.push_back(
-      {"wagon_siam",
-       {{"f", -cos(y()) + c(2) * y() * cos(y().power(2)) * cos(c(2) * x())},
-        {"g", -sin(x()) + c(2) * sin(y().power(2)) * sin(c(2) * x())}},
-       make_region(Rational(-7, 2), Rational(4), Rational(-9, 5), Rational(21, 5)).value()});
+  for (const char* name : {"chebsuite_2_1", "chebsuite_2_3", "chebsuite_2_4", "chebsuite_5_1",
+                           "chebsuite_8_1", "chebsuite_9_1", "wagon_siam"}) {
+    CurvesFile file =
+        load_curves(std::string(ENCASE_TEST_DATA "/curves/") + name + ".curves").value();
+    scenes.push_back({name, std::move(file.curves), std::move(file.region).value()});
+  }
   return scenes;
 }
 

@@ -159,18 +159,6 @@ Status write_report(const CapsRequest& r, const CapsResult& result) {
   return {};
 }
 
-ExitCode exit_code(CapsClass answer) {
-  switch (answer) {
-    case CapsClass::Exact:
-      return kCertified;
-    case CapsClass::DeltaWeak:
-      return kDegenerate;
-    case CapsClass::Undecided:
-      return kUndecided;
-  }
-  return kInternalError;
-}
-
 }  // namespace
 
 ExitCode run_caps(CapsRequest request) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <string>
+#include <variant>
 
 #include "encase/result_json.hpp"
 #include "encase/verify.hpp"
@@ -13,13 +15,49 @@
 namespace encase {
 namespace {
 
-std::string verdict(const Encasement& encasement, std::int64_t claims) {
-  std::string text = fmt::format("verified: {} claims re-proved", claims);
+/// The sentence for people, the exit code, and what was found.
+struct Verdict {
+  std::string text;
+  ExitCode code = kCertified;
+  Verification verification;
+};
+
+void add(Verdict* verdict, const Verification& more) {
+  verdict->verification.claims += more.claims;
+  auto& objections = verdict->verification.objections;
+  objections.insert(objections.end(), more.objections.begin(), more.objections.end());
+}
+
+Verdict judge(const StoredResult& stored, const VerifyOptions& options) {
+  const auto& [encasement, arrangement, source] = stored;
+  Verdict verdict;
+  verdict.code = exit_code(encasement.outcome);
   if (encasement.outcome == Outcome::Degenerate)
-    text += fmt::format("; degenerate: {}", encasement.degenerate.size());
+    verdict.text = fmt::format("; degenerate: {}", encasement.degenerate.size());
   if (encasement.outcome == Outcome::Undecided)
-    text += fmt::format("; undecided: {}", encasement.undecided.size());
-  return text + "\n";
+    verdict.text = fmt::format("; undecided: {}", encasement.undecided.size());
+  add(&verdict,
+      arrangement ? verify(encasement, *arrangement, options) : verify(encasement, options));
+  if (source) add(&verdict, verify_source(*source, encasement, options));
+  return verdict;
+}
+
+Verdict judge(const CapsResult& result, const VerifyOptions& options) {
+  Verdict verdict;
+  verdict.code = exit_code(result.answer);
+  switch (result.answer) {
+    case CapsClass::Exact:
+      verdict.text = "; exact: the graph is that of the arrangement";
+      break;
+    case CapsClass::DeltaWeak:
+      verdict.text = "; delta-weak: beyond that it is a claim of the paper, and not proved";
+      break;
+    case CapsClass::Undecided:
+      verdict.text = "; undecided: a limit was reached";
+      break;
+  }
+  add(&verdict, verify(result, options));
+  return verdict;
 }
 
 }  // namespace
@@ -28,19 +66,12 @@ ExitCode run_check(const CheckRequest& request) {
   const auto& [file, quiet, options] = request;
   const auto text = read_input(file);
   if (!text) return fail(text.error());
-  const auto stored = result_from_json(text.value(), file == "-" ? "standard input" : file);
+  const auto stored = any_result_from_json(text.value(), file == "-" ? "standard input" : file);
   if (!stored) return fail(stored.error());
-  const auto& [encasement, arrangement, source] = stored.value();
   std::optional<Progress> progress(std::in_place, !quiet);
   progress->begin("proving the result again");
-  Verification verification =
-      arrangement ? verify(encasement, *arrangement, options) : verify(encasement, options);
-  if (source) {
-    const Verification more = verify_source(*source, encasement, options);
-    verification.claims += more.claims;
-    verification.objections.insert(verification.objections.end(), more.objections.begin(),
-                                   more.objections.end());
-  }
+  const auto& [words, code, verification] = std::visit(
+      [&](const auto& result) { return judge(result, request.options); }, stored.value());
   progress.reset();
   if (!verification.ok()) {
     std::string objections;
@@ -53,8 +84,10 @@ ExitCode run_check(const CheckRequest& request) {
                      verification.objections.size() == 1 ? "" : "s")});
   }
   if (!quiet)
-    if (const Status status = print(verdict(encasement, verification.claims))) return fail(*status);
-  return exit_code(encasement.outcome);
+    if (const Status status =
+            print(fmt::format("verified: {} claims re-proved{}\n", verification.claims, words)))
+      return fail(*status);
+  return code;
 }
 
 }  // namespace encase

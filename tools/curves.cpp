@@ -170,7 +170,7 @@ Status write_report(const CurvesRequest& r, const Answer& answer,
   if (r.summary) {
     const std::string counts = summary_json(answer.encasement, answer.arranged());
     progress.reset();
-    if (const Status status = print(counts)) return status;
+    if (const Status status = print(counts + "\n")) return status;
     if (r.verbose) std::fputs(text.c_str(), stderr);
     return {};
   }

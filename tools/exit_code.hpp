@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "encase/caps.hpp"
 #include "encase/encasement.hpp"
 #include "encase/result.hpp"
 
@@ -23,6 +24,18 @@ inline ExitCode exit_code(Outcome outcome) {
     case Outcome::Degenerate:
       return kDegenerate;
     case Outcome::Undecided:
+      return kUndecided;
+  }
+  return kInternalError;
+}
+
+inline ExitCode exit_code(CapsClass answer) {
+  switch (answer) {
+    case CapsClass::Exact:
+      return kCertified;
+    case CapsClass::DeltaWeak:
+      return kDegenerate;
+    case CapsClass::Undecided:
       return kUndecided;
   }
   return kInternalError;

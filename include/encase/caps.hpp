@@ -23,6 +23,19 @@ namespace encase {
 /// is proved of a curve that passes through a corner of a leaf.
 inline constexpr std::array<double, 2> kCapsCut{0x1.0028p-1, 0x1.ffa2p-2};
 
+/// The parts, in the order of a node's children: lower left, upper left, lower right, upper right.
+inline std::array<Box<2>, 4> caps_quarters(const Box<2>& box) {
+  std::array<Box<2>, 4> parts;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double cut = box.lo[i] + kCapsCut[i] * (box.hi[i] - box.lo[i]);
+      const bool upper = i == 0 ? k / 2 : k % 2;
+      parts[k].lo[i] = upper ? cut : box.lo[i];
+      parts[k].hi[i] = upper ? box.hi[i] : cut;
+    }
+  return parts;
+}
+
 /// What a leaf holds. A curve that is not in a leaf's list is proved to have no point in the
 /// (closed) leaf.
 enum class CapsLabel {
@@ -102,6 +115,7 @@ struct CapsObstacles {
   int open_vertices = 0;         ///< of a kind other than Crossing and Boundary
   int open_edges = 0;            ///< not proved
   bool any() const { return unexamined_leaves + indeterminate_leaves + open_vertices + open_edges; }
+  bool operator==(const CapsObstacles&) const = default;
 };
 
 struct CapsResult {

@@ -11,6 +11,11 @@ namespace encase {
 /// The result as JSON, format "encase-result" version 1 with the command "caps" (docs/json.md).
 std::string to_json(const CapsResult& result);
 
+/// Reads what `to_json` wrote. Every index refers to something that is there and the tokens are
+/// those of a quadtree with these leaves; that the result is right is for `verify` to say. BadInput
+/// otherwise, with the file's name and the place in it. Never crashes, whatever the text.
+Result<CapsResult> caps_from_json(const std::string& text, const std::string& file_name);
+
 /// One JSON object on one line: status, delta, curves, nodes, depth, leaves (by label), regions,
 /// vertices, crossings, edges, proved_edges, seconds and tree_seconds (CPU).
 std::string summary_json(const CapsResult& result);

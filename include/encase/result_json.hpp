@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "encase/arrangement.hpp"
+#include "encase/caps.hpp"
 #include "encase/encasement.hpp"
 #include "encase/slice.hpp"
 
@@ -32,6 +34,10 @@ struct StoredResult {
 /// say. BadInput otherwise, with the file's name and the place in it. Never crashes, whatever the
 /// text.
 Result<StoredResult> result_from_json(const std::string& text, const std::string& file_name);
+
+/// The same, whichever command wrote it.
+using AnyResult = std::variant<StoredResult, CapsResult>;
+Result<AnyResult> any_result_from_json(const std::string& text, const std::string& file_name);
 
 /// The same, of the encasement alone.
 Result<Encasement> encasement_from_json(const std::string& text, const std::string& file_name);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "encase/arrangement.hpp"
+#include "encase/caps.hpp"
 #include "encase/encasement.hpp"
 
 namespace encase {
@@ -32,5 +33,10 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options =
 /// derives it from the facts that were proved.
 Verification verify(const Encasement& encasement, const Arrangement& arrangement,
                     const VerifyOptions& options = {});
+
+/// Re-proves what is proved in a CAPS result (docs/caps.md): the quadtree and the labels of its
+/// leaves, the regions, the vertices, the edges, and that the answer is what these make it. That a
+/// delta-weak answer has the distance it names is claimed by the paper and not proved.
+Verification verify(const CapsResult& result, const VerifyOptions& options = {});
 
 }  // namespace encase

@@ -11,8 +11,6 @@
 namespace encase {
 namespace {
 
-/// So many parts of a box are looked at for the proof that a curve meets it.
-constexpr std::size_t kMostParts = 64;
 constexpr std::int64_t kMostNodes = 1'000'000'000;  // that can be numbered, with what they hold
 constexpr int kDeepest = 1000;  // levels; doubles have fewer between any two of them
 
@@ -23,26 +21,6 @@ struct Open {
   std::size_t first = 0;  ///< of its curves in the list of the level
   std::size_t count = 0;
 };
-
-/// Where a box is cut in four.
-Point<2> cut_of(const Box<2>& box) {
-  Point<2> cut;
-  for (int i = 0; i < 2; ++i) cut[i] = box.lo[i] + kCapsCut[i] * (box.hi[i] - box.lo[i]);
-  return cut;
-}
-
-/// The quarters in the order of a node's children.
-std::array<Box<2>, 4> quarters(const Box<2>& box) {
-  const Point<2> cut = cut_of(box);
-  std::array<Box<2>, 4> parts;
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 2; ++i) {
-      const bool upper = i == 0 ? k / 2 : k % 2;
-      parts[k].lo[i] = upper ? cut[i] : box.lo[i];
-      parts[k].hi[i] = upper ? box.hi[i] : cut[i];
-    }
-  return parts;
-}
 
 class Subdivider {
  public:
@@ -90,7 +68,6 @@ class Subdivider {
   std::vector<Open> level_, next_;
   std::vector<int> alive_, next_alive_;  ///< the curves of the boxes of a level
   std::vector<int> here_;                ///< those that may pass the box at hand
-  std::vector<Box<2>> parts_;
   std::int64_t visited_ = 0;
 };
 
@@ -107,9 +84,9 @@ void Subdivider::classify(const Open& open, int depth) {
     here_.push_back(curve);
   }
   if (here_.empty()) return end(open, depth, CapsLabel::Empty, -1);
-  const bool terminal = open.box.largest_width() <= options_.epsilon || depth == kDeepest;
   if (here_.size() > 1) {
-    if (!terminal && can_divide(open.box)) return divide(open);
+    const bool terminal = open.box.largest_width() <= options_.epsilon;
+    if (!terminal && depth < kDeepest && can_divide(open.box)) return divide(open);
     return end(open, depth, terminal ? CapsLabel::Several : CapsLabel::Indeterminate, -1);
   }
   const int curve = here_[0];
@@ -123,41 +100,17 @@ void Subdivider::classify(const Open& open, int depth) {
   end(open, depth, label, label == CapsLabel::Empty ? -1 : axis);
 }
 
-/// Whether the only curve that may pass a box does: it does if its function changes its sign on a
-/// part on which it is continuous, and does not if it keeps a sign on each of some parts.
+/// What a box is in which only one curve may pass.
 CapsLabel Subdivider::settle(const Box<2>& box, int curve, const CurveBounds::Look& look) {
-  CurveBounds& f = curves_[static_cast<std::size_t>(curve)];
-  bool open = false;
-  std::array<bool, 2> whole{};  // the signs met, if it is continuous on the box
-  parts_.assign(1, box);
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const Box<2> part = parts_[k];
-    const CurveBounds::Look seen = k == 0 ? look : f.look(part);
-    if (seen.changes) return CapsLabel::OneCurve;
-    std::array<bool, 2> own{};
-    std::array<bool, 2>& met = look.continuous ? whole : own;
-    const auto meet = [&](std::optional<Sign> sign) {
-      if (sign) met[*sign == Sign::Positive] = true;
-      return met[0] && met[1];
-    };
-    if (meet(seen.sign)) return CapsLabel::OneCurve;
-    if (seen.absent) continue;
-    if (seen.continuous)
-      for (const Point<2>& p :
-           {part.center(), part.lo, part.hi, {part.lo[0], part.hi[1]}, {part.hi[0], part.lo[1]}})
-        if (meet(f.sign_at(p))) return CapsLabel::OneCurve;
-    if (part.largest_width() <= options_.epsilon || parts_.size() + 4 > kMostParts) {
-      open = true;
-      continue;
-    }
-    for (const Box<2>& quarter : quarters(part)) parts_.push_back(quarter);
-  }
-  return open ? CapsLabel::Indeterminate : CapsLabel::Empty;
+  const auto there =
+      has_point(curves_[static_cast<std::size_t>(curve)], box, look, options_.epsilon);
+  if (!there) return CapsLabel::Indeterminate;
+  return *there ? CapsLabel::OneCurve : CapsLabel::Empty;
 }
 
 /// Whether there are doubles between the sides of a box, and the budget allows it.
 bool Subdivider::can_divide(const Box<2>& box) {
-  const Point<2> cut = cut_of(box);
+  const Point<2> cut = caps_quarters(box)[0].hi;
   const bool possible =
       box.lo[0] < cut[0] && cut[0] < box.hi[0] && box.lo[1] < cut[1] && cut[1] < box.hi[1];
   const std::int64_t most = std::min(options_.max_boxes, kMostNodes);
@@ -171,7 +124,7 @@ void Subdivider::divide(const Open& open) {
   tree_.nodes.resize(tree_.nodes.size() + 4);
   const std::size_t start = next_alive_.size();
   next_alive_.insert(next_alive_.end(), here_.begin(), here_.end());
-  const std::array<Box<2>, 4> parts = quarters(open.box);
+  const std::array<Box<2>, 4> parts = caps_quarters(open.box);
   for (int k = 0; k < 4; ++k) next_.push_back({first + k, parts[k], start, here_.size()});
 }
 

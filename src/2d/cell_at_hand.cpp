@@ -534,15 +534,18 @@ bool CellAtHand::add_new_crossings(const Line& line) {
   if (!(from.hi < to.lo)) return false;
   trial_.roots.clear();
   begin_score();
+  const bool may_end = std::any_of(cell_->zones.begin(), cell_->zones.end(),
+                                   [&](int id) { return partition_.zones[id].crossable; });
   for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
     const std::size_t before = trial_.roots.size();
     if (!partition_.isolate_between(whole_.curves[s].curve, line, from, to, kMaxNodes,
                                     &trial_.roots))
       return false;
     const double reached = continue_score(s, static_cast<int>(trial_.roots.size() - before));
-    // A curve enters a cell as often as it leaves it: a free check of all the above.
+    // A curve enters a cell as often as it leaves it: a free check of all the above. (But it may
+    // end where its function is not analytic.)
     for (const Part& part : parts_)
-      if (part.curves[s].ends % 2 != 0) return false;
+      if (part.curves[s].ends % 2 != 0 && !may_end) return false;
     if (is_beaten(reached)) return false;
   }
   return true;

@@ -55,7 +55,8 @@ bool CellSplitter::find_cut_at_zone(const OpenCell& cell, CellState* settled) {
   for (const int k : cell.zones) {
     const Zone& zone = partition_.zones[k];
     if (!zone.crossable && zone.box.largest_width() > diameter / 8) break;
-    for (const double scale : {1.0, 0.83, 1.21}) {
+    for (const double scale : {1.0, 0.83, 1.21, 11.0, 97.0}) {
+      if (scale > 2 && !zone.crossable) break;  // others are kept clear of features
       Box<2> around = zone.clearance;
       for (int i = 0; i < 2; ++i) {
         around.lo[i] = zone.box.lo[i] - scale * (zone.box.lo[i] - zone.clearance.lo[i]);

@@ -3,9 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "encase/caps.hpp"
 
 namespace encase {
 namespace {
+
+/// So many parts of a box are looked at for the proof that a curve meets it.
+constexpr std::size_t kMostParts = 64;
 
 double magnitude(const Interval& a) { return std::max(std::fabs(a.lo), std::fabs(a.hi)); }
 
@@ -78,6 +84,38 @@ int graph_axis(const CurveBounds::Slopes& slopes) {
   const double x = steepness(0), y = steepness(1);
   if (!(x > 0) && !(y > 0)) return -1;
   return y >= x ? 0 : 1;
+}
+
+std::optional<bool> has_point(CurveBounds& f, const Box<2>& box, const CurveBounds::Look& look,
+                              double smallest) {
+  bool open = false;
+  std::array<bool, 2> whole{};  // the signs met, if it is continuous on the box
+  thread_local std::vector<Box<2>> parts;
+  parts.assign(1, box);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Box<2> part = parts[k];
+    const CurveBounds::Look seen = k == 0 ? look : f.look(part);
+    if (seen.changes) return true;
+    std::array<bool, 2> own{};
+    std::array<bool, 2>& met = look.continuous ? whole : own;
+    const auto meet = [&](std::optional<Sign> sign) {
+      if (sign) met[*sign == Sign::Positive] = true;
+      return met[0] && met[1];
+    };
+    if (meet(seen.sign)) return true;
+    if (seen.absent) continue;
+    if (seen.continuous)
+      for (const Point<2>& p :
+           {part.center(), part.lo, part.hi, {part.lo[0], part.hi[1]}, {part.hi[0], part.lo[1]}})
+        if (meet(f.sign_at(p))) return true;
+    if (part.largest_width() <= smallest || parts.size() + 4 > kMostParts) {
+      open = true;
+      continue;
+    }
+    for (const Box<2>& quarter : caps_quarters(part)) parts.push_back(quarter);
+  }
+  if (open) return std::nullopt;
+  return false;
 }
 
 }  // namespace encase

@@ -55,4 +55,11 @@ class CurveBounds {
 /// graph of a smooth function, since the other partial derivative is not zero; -1: neither.
 int graph_axis(const CurveBounds::Slopes& slopes);
 
+/// Whether a curve has a point in a box: it has if its function has both signs on a part on which
+/// it is continuous, and has none if it keeps a sign on each of some parts. Nothing if neither is
+/// proved after some parts, or at parts with both widths at most `smallest`. `look` is what the
+/// curve's bounds say of the box.
+std::optional<bool> has_point(CurveBounds& curve, const Box<2>& box, const CurveBounds::Look& look,
+                              double smallest);
+
 }  // namespace encase

@@ -662,7 +662,8 @@ void Encaser::collect_zones() {
       const bool tiny = entry.box.largest_width() < 0x1p-8 * diameter;
       const double margin =
           tiny ? 0x1p-6 * diameter
-               : 0x1p-8 * diameter + 0.5 * std::min(entry.box.width(0), entry.box.width(1));
+               : 0x1p-10 * diameter +
+                     0.5 * std::min({entry.box.width(0), entry.box.width(1), 0x1p-8 * diameter});
       zone.clearance.lo[i] -= margin;
       zone.clearance.hi[i] += 1.07 * margin;
     }

@@ -73,6 +73,15 @@ bool is_curve(const Expression& f) {
   return (f.uses(0) || f.uses(1)) && !f.uses(2);
 }
 
+}  // namespace
+
+bool is_curve(const Function<2>& function) {
+  return function.is_polynomial() ? is_curve(function.polynomial())
+                                  : is_curve(function.expression());
+}
+
+namespace {
+
 void check_function(Claims& claims, const char* name, std::size_t i, const Function<2>& function) {
   if (function.is_polynomial()) {
     claims.require(is_curve(function.polynomial()), name, " ", i,

@@ -34,17 +34,10 @@ struct Facts {
   std::vector<std::size_t> upper_half{};
 };
 
-/// The facts, the precision ladder, and the report. Not shared between threads: see `for_each`.
-struct Claims {
-  explicit Claims(Facts& f)
-      : facts(f),
-        result(f.result),
-        curves(f.curves),
-        shared_leaves(f.shared_leaves),
-        upper_half(f.upper_half),
-        max_objections(f.options.max_objections > 1 ? f.options.max_objections : 1) {
-    kernel.max_bits = f.options.max_bits;
-  }
+/// Counts claims and keeps objections.
+struct Reporter {
+  explicit Reporter(const VerifyOptions& options)
+      : max_objections(options.max_objections > 1 ? options.max_objections : 1) {}
 
   /// Counts a claim that is proved, and objects to one that is not in a sentence made of `parts`.
   template <class... Parts>
@@ -63,14 +56,28 @@ struct Claims {
   /// Enough objections: checking more would only take time.
   bool full() const { return static_cast<int>(report.objections.size()) >= max_objections; }
 
+  int max_objections;
+  Verification report;
+};
+
+/// The facts, the precision ladder, and the report. Not shared between threads: see `for_each`.
+struct Claims : Reporter {
+  explicit Claims(Facts& f)
+      : Reporter(f.options),
+        facts(f),
+        result(f.result),
+        curves(f.curves),
+        shared_leaves(f.shared_leaves),
+        upper_half(f.upper_half) {
+    kernel.max_bits = f.options.max_bits;
+  }
+
   Facts& facts;
   const Encasement& result;
   std::vector<FilteredFunction<2>>& curves;
   std::vector<Box<2>>& shared_leaves;
   std::vector<std::size_t>& upper_half;
-  int max_objections;
   Kernel kernel;
-  Verification report;
 };
 
 /// Calls check(part, i) for 0 <= i < count, on several threads, as the options say. `part` has the
@@ -78,6 +85,9 @@ struct Claims {
 /// the order of i, up to the most objections. So the outcome does not depend on the threads.
 void for_each(Claims& claims, std::size_t count,
               const std::function<void(Claims& part, std::size_t i)>& check);
+
+/// A polynomial of degree 1 to kMaxDegree, or an expression in x and y that is no constant.
+bool is_curve(const Function<2>& function);
 
 /// Every index is in range, every number finite, every box ordered, every enumerator named. All
 /// later checks rely on it: false ends the verification.

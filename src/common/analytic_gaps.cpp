@@ -2,20 +2,32 @@
 #include "common/analytic_gaps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "common/interval.hpp"
+#include "common/numerator.hpp"
 #include "common/subdivision.hpp"
 
 namespace encase {
 namespace {
 
-constexpr int kDegree = 3;             // of the models that tell
-constexpr std::size_t kFew = 128;      // boxes along a line are not halved beyond this number
-constexpr std::size_t kMany = 4096;    // nor are any others
-constexpr double kLineGrowth = 2.6;    // by which there are more of them on an area
+constexpr int kDegree = 3;         // of the models that tell
+constexpr std::size_t kFew = 128;  // boxes along a line are not halved beyond this number
+constexpr std::size_t kFewOfQuotients = 1024;  // likewise; most will vanish
+constexpr std::size_t kMany = 4096;            // nor are any others
+constexpr int kSlices = 64;
+constexpr double kLineGrowth = 1.7;    // by which there are more of them on an area
 constexpr double kSmallest = 0x1p-30;  // part of the root's width
+constexpr double kThin = 0x1p-11;      // likewise, of strips
+constexpr double kLong = 0x1p-4;       // likewise: such strips are not cut into pieces
+// Boxes narrower than this part need a model with a relative error that is of use: near essential
+// singularities there is none, and nothing would be found.
+constexpr double kNarrow = 0x1p-5;
+constexpr double kUseful = 0x1p-6;
+constexpr double kWide = 0x1p-6;  // part of its coordinates above which a gap is wide
 constexpr std::size_t kFewGathered = 40;
 constexpr int kGrid = 16;
 
@@ -53,11 +65,117 @@ void join_neighbours(std::vector<Box<2>>* boxes) {
   }
 }
 
+/// Halves what has no model, breadth first, along the axis along which more comes of it.
+class GapFinder {
+ public:
+  GapFinder(const FilteredExpression<2>& f, const Box<2>& root, Kernel& kernel)
+      : f_(f), root_(root), kernel_(kernel) {}
+
+  std::vector<Box<2>> run() {
+    sort_out(root_, content(root_));
+    if (open_.empty()) return std::move(gaps_);
+    easier_axis_ = easier_axis();
+    const std::size_t few = numerator_of(f_.exact()).divisors.empty() ? kFew : kFewOfQuotients;
+    for (std::size_t before = 1; !open_.empty();) {
+      const std::vector<Box<2>> level = std::exchange(open_, {});
+      const bool along_line =
+          static_cast<double>(level.size()) < kLineGrowth * static_cast<double>(before);
+      const bool ends = level.size() > kMany || (level.size() > few && along_line);
+      for (const Box<2>& box : level)
+        if (ends || !halve(box)) gaps_.push_back(box);
+      before = level.size();
+    }
+    join_neighbours(&gaps_);
+    return std::move(gaps_);
+  }
+
+ private:
+  enum class Content { Model, Nothing, Open };
+
+  Content content(const Box<2>& box) const {
+    Point<2> center, half;
+    for (int i = 0; i < 2; ++i) {
+      const Centered chart = centered(box.lo[i], box.hi[i]);
+      center[i] = chart.center;
+      half[i] = chart.half;
+    }
+    const auto& model = f_.model(center, half, kDegree, Kernel::kDoubleBits, kernel_);
+    if (model.undefined) return Content::Nothing;
+    const bool narrow = std::min(part(box, 0), part(box, 1)) < kNarrow;
+    const bool serves =
+        model.exists() && (!narrow || model.error <= kUseful * model.polynomial_norm());
+    return serves ? Content::Model : Content::Open;
+  }
+
+  void sort_out(const Box<2>& box, Content here) {
+    if (here == Content::Open) open_.push_back(box);
+    if (here == Content::Nothing) gaps_.push_back(box);
+  }
+
+  /// The axis such that many more slices across it have models; -1 if there is none.
+  int easier_axis() const {
+    std::array<int, 2> slices{};
+    for (int axis = 0; axis < 2; ++axis)
+      for (int k = 0; k < kSlices; ++k) {
+        Box<2> slice = root_;
+        slice.lo[axis] += root_.width(axis) * k / kSlices;
+        slice.hi[axis] = root_.lo[axis] + root_.width(axis) * (k + 1) / kSlices;
+        slices[axis] += content(slice) != Content::Open;
+      }
+    return slices[0] > 2 * slices[1] ? 0 : slices[1] > 2 * slices[0] ? 1 : -1;
+  }
+
+  bool is_preferred(const Box<2>& box, int axis) const {
+    if (easier_axis_ >= 0) return axis == easier_axis_;
+    return part(box, axis) > part(box, 1 - axis);
+  }
+
+  double part(const Box<2>& box, int axis) const { return box.width(axis) / root_.width(axis); }
+
+  /// Strips are made no thinner than they need be; points get boxes as small as can be.
+  bool may_halve(const Box<2>& box, int axis) const {
+    const double here = part(box, axis);
+    return here > kThin || (here > kSmallest && here >= 0.5 * part(box, 1 - axis));
+  }
+
+  bool halve(const Box<2>& box) {
+    struct Halving {
+      std::array<Box<2>, 2> half;
+      std::array<Content, 2> content{};
+      double value = -1;
+    };
+    std::array<Halving, 2> halvings;
+    for (int axis = 0; axis < 2; ++axis) {
+      Halving& h = halvings[axis];
+      if (!may_halve(box, axis) || !halve_box(box, axis, &h.half[0], &h.half[1])) continue;
+      h.value = is_preferred(box, axis) ? 0.5 : 0;
+      for (int k = 0; k < 2; ++k) {
+        h.content[k] = content(h.half[k]);
+        h.value += h.content[k] != Content::Open;
+      }
+    }
+    const Halving& best = halvings[halvings[1].value > halvings[0].value ? 1 : 0];
+    // A strip along a line is kept as it is.
+    const double a = part(box, 0), b = part(box, 1);
+    const bool strip = std::min(a, b) <= kThin && std::max(a, b) > kLong;
+    if (best.value < (strip ? 1 : 0)) return false;
+    for (int k = 0; k < 2; ++k) sort_out(best.half[k], best.content[k]);
+    return true;
+  }
+
+  const FilteredExpression<2>& f_;
+  const Box<2>& root_;
+  Kernel& kernel_;
+  int easier_axis_ = -1;
+  std::vector<Box<2>> gaps_, open_;
+};
+
+/// By a part of its width, of a wide one a small part of its coordinates, and by `tiny` of these.
 Box<2> grown(const Box<2>& gap, double part, double tiny) {
   Box<2> result = gap;
   for (int i = 0; i < 2; ++i) {
-    const double margin =
-        part * gap.width(i) + tiny * std::max(std::fabs(gap.lo[i]), std::fabs(gap.hi[i]));
+    const double reach = std::max(std::fabs(gap.lo[i]), std::fabs(gap.hi[i]));
+    const double margin = part * std::min(gap.width(i), kWide * reach) + tiny * reach;
     result.lo[i] -= margin;
     result.hi[i] += margin;
   }
@@ -67,44 +185,7 @@ Box<2> grown(const Box<2>& gap, double part, double tiny) {
 }  // namespace
 
 std::vector<Box<2>> find_gaps(const FilteredExpression<2>& f, const Box<2>& root, Kernel& kernel) {
-  std::vector<Box<2>> gaps, level{root}, open;
-  for (std::size_t before = 1; !level.empty(); before = open.size()) {
-    open.clear();
-    for (const Box<2>& box : level) {
-      Point<2> center, half;
-      for (int i = 0; i < 2; ++i) {
-        const Centered chart = centered(box.lo[i], box.hi[i]);
-        center[i] = chart.center;
-        half[i] = chart.half;
-      }
-      const auto& model = f.model(center, half, kDegree, Kernel::kDoubleBits, kernel);
-      if (model.exists()) continue;
-      (model.undefined ? gaps : open).push_back(box);
-    }
-    level.clear();
-    const bool along_line =
-        static_cast<double>(open.size()) < kLineGrowth * static_cast<double>(before);
-    const bool ends = open.size() > kMany || (open.size() > kFew && along_line);
-    for (const Box<2>& box : open) {
-      Box<2> lower, upper;
-      if (ends || box.largest_width() < kSmallest * root.largest_width() ||
-          !halve_box(box, 0, &lower, &upper)) {
-        gaps.push_back(box);
-        continue;
-      }
-      for (const Box<2>& part : {lower, upper}) {
-        Box<2> below, above;
-        if (!halve_box(part, 1, &below, &above)) {
-          gaps.push_back(part);
-          continue;
-        }
-        level.push_back(below);
-        level.push_back(above);
-      }
-    }
-  }
-  join_neighbours(&gaps);
-  return gaps;
+  return GapFinder(f, root, kernel).run();
 }
 
 Box<2> left_out_at(const Box<2>& gap) { return grown(gap, 0x1p-6, 0x1p-42); }
@@ -114,9 +195,7 @@ Relation relation(const Box<2>& box, const std::vector<Box<2>>& gaps) {
   Relation result = Relation::Apart;
   for (const Box<2>& gap : gaps) {
     if (!overlap(box, gap)) continue;
-    if (gap.contains(box) ||
-        (box.width(0) < 0x1p-8 * gap.width(0) && box.width(1) < 0x1p-8 * gap.width(1)))
-      return Relation::Within;
+    if (left_out_at(gap).contains(box)) return Relation::Within;
     result = Relation::Partly;
   }
   return result;

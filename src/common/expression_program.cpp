@@ -350,7 +350,7 @@ JetOnBox<Real, D, Order> ExpressionProgram<D>::evaluate(const std::array<Real, D
       const auto axis = static_cast<std::size_t>(step.number);
       part[0] = box[axis];
       if constexpr (Order >= 1) part[1 + axis] = number_like(box[0], 1);
-    } else if (operands(step.operation) == 0) {
+    } else if (step.first < 0) {
       part[0] = constant_like(box[0], step);
     } else {
       on_jets.run(step, &jets[k]);

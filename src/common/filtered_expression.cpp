@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/interval.hpp"
+#include "common/numerator.hpp"
 
 namespace encase {
 namespace {
@@ -84,13 +85,40 @@ struct FilteredExpression<D>::Workspace {
 
 template <int D>
 FilteredExpression<D>::FilteredExpression(Expression exact) : exact_(std::move(exact)) {
-  const std::vector<Expression::Step> steps = exact_.steps();
-  std::vector<int> last_use(steps.size(), 0);
-  for (std::size_t k = 0; k < steps.size(); ++k)
+  // All in one list, as what it takes to have the greatest of them.
+  const Numerator n = numerator_of(exact_);
+  Expression all = n.numerator;
+  for (const Expression& divisor : n.divisors)
+    all = Expression::apply(Operation::Max, all, divisor);
+  const std::vector<Expression::Step> steps = all.steps();
+  std::vector<int> results{static_cast<int>(steps.size()) - 1};
+  for (std::size_t k = 0; k < n.divisors.size(); ++k) {
+    const Expression::Step& greatest = steps[static_cast<std::size_t>(results[0])];
+    results[0] = greatest.first;
+    results.push_back(greatest.second);
+  }
+  place_steps(steps, results);
+}
+
+/// Gives the steps that lead to results places; those of results are not used again.
+template <int D>
+void FilteredExpression<D>::place_steps(const std::vector<Expression::Step>& steps,
+                                        const std::vector<int>& results) {
+  constexpr int kUnused = -1;
+  std::vector<int> last_use(steps.size(), kUnused);
+  for (const int result : results)
+    last_use[static_cast<std::size_t>(result)] = static_cast<int>(steps.size());
+  for (std::size_t k = steps.size(); k-- > 0;) {
+    if (last_use[k] == kUnused) continue;
     for (const int operand : {steps[k].first, steps[k].second})
-      if (operand >= 0) last_use[static_cast<std::size_t>(operand)] = static_cast<int>(k);
+      if (operand >= 0) {
+        int& use = last_use[static_cast<std::size_t>(operand)];
+        use = std::max(use, static_cast<int>(k));
+      }
+  }
   std::vector<int> place(steps.size(), -1), idle;
   for (std::size_t k = 0; k < steps.size(); ++k) {
+    if (last_use[k] == kUnused) continue;
     const Expression::Step& step = steps[k];
     if (idle.empty()) idle.push_back(places_++);
     place[k] = idle.back();
@@ -107,9 +135,25 @@ FilteredExpression<D>::FilteredExpression(Expression exact) : exact_(std::move(e
             idle.back() == of(operand)))
         idle.push_back(of(operand));
   }
+  value_ = place[static_cast<std::size_t>(results[0])];
+  for (std::size_t k = 1; k < results.size(); ++k)
+    divisors_.push_back(place[static_cast<std::size_t>(results[k])]);
 }
 
-/// The model of the last step, from the coordinates that the workspace was given.
+namespace {
+
+/// Whether f has no zero on the polydisc: |c_0| is more than all else.
+template <int K, class Number>
+bool has_no_zero(const TaylorModel<K, Number>& f) {
+  if (!f.exists()) return false;
+  double rest = f.error;
+  for (std::size_t k = 1; k <= static_cast<std::size_t>(f.degree); ++k) rest += f.norm[k];
+  return std::fabs(to_double(f.c[0])) > rest * kUp + kUnderflow;
+}
+
+}  // namespace
+
+/// The model of the numerator, from the coordinates that the workspace was given.
 template <int D>
 template <int K, class Number>
 const TaylorModel<K, Number>& FilteredExpression<D>::run(Workspace<K, Number>& w) const {
@@ -206,7 +250,12 @@ const TaylorModel<K, Number>& FilteredExpression<D>::run(Workspace<K, Number>& w
         break;
     }
   }
-  return w.places[static_cast<std::size_t>(steps_.back().result)];
+  // Where the numerator may be zero, no divisor may: else f may have no value at such a point.
+  TaylorModel<K, Number>& value = w.places[static_cast<std::size_t>(value_)];
+  if (value.exists() && !divisors_.empty() && !has_no_zero(value))
+    for (const int divisor : divisors_)
+      if (!has_no_zero(w.places[static_cast<std::size_t>(divisor)])) value.claim_nothing();
+  return value;
 }
 
 namespace {
@@ -542,7 +591,7 @@ typename FilteredExpression<D>::LocalJet FilteredExpression<D>::local_jet(
     }
     places[static_cast<std::size_t>(step.result)] = r;
   }
-  return places[static_cast<std::size_t>(steps_.back().result)];
+  return places[static_cast<std::size_t>(value_)];
 }
 
 template <int D>
@@ -569,7 +618,7 @@ Jet FilteredExpression<D>::jet(const Point<D>& point) const requires(D == 2) {
           local.hessian[1][1]};
 }
 
-/// The exact value where only arithmetic leads to it; false if there is none.
+/// The numerator's exact value where only arithmetic leads to it and f has a value.
 template <int D>
 bool FilteredExpression<D>::exact_value(const RationalPoint<D>& point, Rational* value) const {
   std::vector<Rational> places(static_cast<std::size_t>(places_));
@@ -622,7 +671,9 @@ bool FilteredExpression<D>::exact_value(const RationalPoint<D>& point, Rational*
     }
     places[static_cast<std::size_t>(step.result)] = std::move(r);
   }
-  *value = places[static_cast<std::size_t>(steps_.back().result)];
+  for (const int divisor : divisors_)
+    if (places[static_cast<std::size_t>(divisor)] == 0) return false;
+  *value = places[static_cast<std::size_t>(value_)];
   return true;
 }
 

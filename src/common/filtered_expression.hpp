@@ -11,8 +11,10 @@
 namespace encase {
 
 /// An expression with what algorithms ask about it, as FilteredPolynomial for polynomials; all from
-/// Taylor models. It is not scaled. Where a question is about a part of the plane on which the
-/// expression is not proved to be analytic, error bounds are infinite. Immutable; const queries
+/// Taylor models. It is not scaled, but its numerator (`numerator_of`) takes its place: models are
+/// the numerator's, and claim nothing where that and a divisor are not proved to have no common
+/// zero. So an expression may have a model around its poles. Where a question is about a part of
+/// the plane on which there is none, error bounds are infinite. Immutable; const queries
 /// may run in parallel. Precisions: 53 bits are doubles, all others MPFR.
 template <int D>
 class FilteredExpression {
@@ -69,6 +71,7 @@ class FilteredExpression {
   struct Workspace;
   template <int K, class Number>
   const TaylorModel<K, Number>& run(Workspace<K, Number>& workspace) const;
+  void place_steps(const std::vector<Expression::Step>& steps, const std::vector<int>& results);
   template <class Coordinate>
   Value value_at(const std::array<Coordinate, D>& point, const Point<D>& error, int bits) const;
   template <class Number>
@@ -79,8 +82,10 @@ class FilteredExpression {
 
   Expression exact_;
   std::vector<Step> steps_;
-  int places_ = 0;        ///< of intermediate results
-  bool rational_ = true;  ///< only arithmetic: values at rational points are exact
+  int value_ = 0;              ///< where the numerator is in the end
+  std::vector<int> divisors_;  ///< where they are
+  int places_ = 0;             ///< of intermediate results
+  bool rational_ = true;       ///< only arithmetic: values at rational points are exact
 };
 
 }  // namespace encase

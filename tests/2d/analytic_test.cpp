@@ -157,16 +157,50 @@ const Polynomial<2> kLine = Polynomial<2>::from_terms(
     {{{1, 0}, Rational(1)}, {{0, 1}, Rational(1, 3)}, {{0, 0}, Rational(-1, 7)}});
 
 TEST(Analytic, PolesAndEdgesOfDomainsStayInTheirPlaces) {
-  expect_gaps(scene("pole", c(1) / x() - y(), kLine, -2, 2), 0.1, 0);
-  expect_gaps(scene("poles", of(Operation::Tan, x()) - y(), kLine, -4, 4), 0.2, 1);
+  expect_gaps(scene("both sides", of(Operation::Log, of(Operation::Abs, x())) - y(), kLine, -2, 2),
+              4e-3, 1);
+  expect_gaps(scene("hole", sin(x()) / x() - y(), kLine, -2, 2), 4e-3, 1);
   expect_gaps(scene("cone", of(Operation::Sqrt, x().power(2) + y().power(2)) - c(1), kLine, -2, 2),
               1e-7, 2);
-  expect_gaps(scene("isolated pole", c(1) - c(1) / (x().power(2) + y().power(2)), kLine, -2, 2),
+  expect_gaps(scene("isolated", of(Operation::Log, x().power(2) + y().power(2)), kLine, -2, 2),
               1e-7, 2);
   expect_gaps(
       scene("diamond", of(Operation::Abs, x()) + of(Operation::Abs, y()) - c(1), kLine, -2, 2), 0.1,
       2);
   expect_gaps(scene("logarithm", of(Operation::Log, x()) - y(), kLine, -1, 2), 1.5, 1);
+}
+
+TEST(Analytic, PolesHoldNoZeros) {
+  const auto expect_certified = [](const Scene& scene, int crossings) {
+    SCOPED_TRACE(scene.name);
+    const Encasement e = run(scene);
+    EXPECT_EQ(e.outcome, Outcome::Certified);
+    EXPECT_EQ(inside(e), crossings);
+    expect_right_crossings(e);
+    expect_complete(e, 24);
+  };
+  expect_certified(scene("pole", c(1) / x() - y(), kLine, -2, 2), 0);
+  expect_certified(scene("poles", of(Operation::Tan, x()) - y(), kLine, -4, 4), 1);
+  expect_certified(scene("many poles", of(Operation::Tan, c(3) * x() + y()) - y(), kLine, -4, 4),
+                   1);
+  expect_certified(scene("isolated", c(1) - c(1) / (x().power(2) + y().power(2)), kLine, -2, 2), 2);
+}
+
+TEST(Analytic, AContactAmongPolesIsOpenOnlyThere) {
+  // Three crossings in one, at the origin.
+  const Encasement e = run(scene("triple", of(Operation::Tan, x()) - y(),
+                                 Polynomial<2>::variable(0) - Polynomial<2>::variable(1), -5, 6));
+  EXPECT_NE(e.outcome, Outcome::Certified);
+  EXPECT_EQ(inside(e), 2);
+  for (const auto* places : {&e.degenerate, &e.undecided})
+    for (const Unresolved& entry : *places) {
+      EXPECT_NE(entry.kind, Unresolved::Kind::NotAnalytic);
+      EXPECT_TRUE((Box<2>{{-1e-4, -1e-4}, {1e-4, 1e-4}}).contains(entry.box));
+    }
+  const auto certified = encased::count(e, CellState::Certified);
+  EXPECT_GE(certified, 10);
+  EXPECT_LE(static_cast<int>(e.cells.size()) - certified, 2);
+  expect_right_crossings(e);
 }
 
 TEST(Analytic, EqualExpressionsAreOneCurve) {

@@ -102,10 +102,22 @@ TEST(Gaps, AreWhereTheFunctionIsNotAnalytic) {
   };
   EXPECT_TRUE(gaps(sin(x() * y()) / (c(2) + cos(x()))).empty());
   // A line: one strip; a point: tiny boxes; a diagonal: a chain.
-  const auto strip = gaps(c(1) / x());
-  ASSERT_EQ(strip.size(), 1u);
-  EXPECT_LT(strip[0].width(0), 0.05);
-  EXPECT_TRUE(strip[0].contains(Point<2>{0, 0.5}));
+  for (const Expression& f : {of(Operation::Abs, x()), of(Operation::Sqrt, x()) - y(),
+                              x() / x().power(2), sin(x()) / x() - y()}) {
+    const auto strip = gaps(f);
+    ASSERT_EQ(strip.size(), 1u) << f.to_string();
+    EXPECT_LT(strip[0].hi[0], 1e-3 * root.width(0)) << f.to_string();
+    EXPECT_TRUE(strip[0].contains(Point<2>{0, 0.5}));
+  }
+  // Poles near which the numerator has no zero.
+  for (const Expression& f :
+       {c(1) / x(), c(1) / x() - y(), y() - of(Operation::Tan, c(2) * x()), x().power(-2) - c(4),
+        c(1) - c(1) / (x().power(2) + y().power(2)), y() - of(Operation::Tan, c(3) * x() + y())})
+    EXPECT_TRUE(gaps(f).empty()) << f.to_string();
+  // One at which a curve ends: y = x at the origin.
+  const auto hole = gaps((x().power(2) - x() * y()) / (x().power(2) + y().power(2)));
+  ASSERT_FALSE(hole.empty());
+  for (const Box<2>& box : hole) EXPECT_TRUE(around(0, 0, 1e-6).contains(box));
   for (const Box<2>& box : gaps(of(Operation::Sqrt, x().power(2) + y().power(2))))
     EXPECT_LT(box.largest_width(), 1e-7);
   const auto chain = gaps(of(Operation::Abs, x() - y()));

@@ -5,9 +5,12 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "encase/curves_file.hpp"
+#include "encase/result_json.hpp"
+#include "encase/verify.hpp"
 
 namespace encase {
 namespace {
@@ -60,6 +63,54 @@ TEST(CapsJson, HoldsTheResult) {
 }
 
 TEST(CapsJson, IsTheSameEachTime) { EXPECT_EQ(to_json(sample()), to_json(sample())); }
+
+TEST(CapsJson, ReadsBackToTheSame) {
+  for (const bool self_crossings : {false, true}) {
+    const std::string text = to_json(sample(self_crossings));
+    const Result<CapsResult> read = caps_from_json(text, "file");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(to_json(read.value()), text);
+    EXPECT_TRUE(verify(read.value()).ok());
+    const Result<AnyResult> any = any_result_from_json(text, "file");
+    ASSERT_TRUE(any);
+    EXPECT_TRUE(std::holds_alternative<CapsResult>(any.value()));
+  }
+}
+
+TEST(CapsJson, WhatIsNoResultIsRefused) {
+  const Json json = Json::parse(to_json(sample()));
+  const auto refused = [&](const std::string& pointer, const Json& value,
+                           const std::string& message) {
+    Json other = json;
+    other[Json::json_pointer(pointer)] = value;
+    const auto read = caps_from_json(other.dump(), "file");
+    ASSERT_FALSE(read) << pointer;
+    EXPECT_EQ(read.error().code, Error::Code::BadInput);
+    EXPECT_EQ(read.error().message, "file: " + message);
+  };
+  refused("/command", "curves", "command: expected a result of 'caps'");
+  refused("/format", "result", "format: this is not a result of encase");
+  refused("/version", 2, "version: this version of encase reads version 1 only");
+  refused("/status", "certified", "status: unknown word 'certified'");
+  refused("/cut/0", 0.5, "cut: boxes are cut elsewhere by this version of encase");
+  refused("/tokens", Json::array({-1, 0}), "tokens: the quadtree is not complete");
+  refused("/tokens", Json::array({0, 0}), "tokens[1]: the quadtree has ended");
+  refused("/tokens", Json::array({-1, 0, 0}), "tokens[2]: the leaf is there twice");
+  refused("/tokens/1", -2,
+          "tokens[1]: expected an integer from -1 to " + std::to_string(json["leaves"].size() - 1));
+  refused("/leaves/0/4", 2, "leaves[0][4]: expected an integer from 0 to 1");
+  refused("/leaves/0/2", 99,
+          "leaves[0][2]: expected an integer from 0 to " +
+              std::to_string(json["curve_sets"].size() - 1));
+  refused("/curves/0/expression", "x + 'y'",
+          "curves[0].expression: at character 5: unexpected character '''");
+  refused("/edges/0/vertices/0", 99,
+          "edges[0].vertices[0]: expected an integer from 0 to " +
+              std::to_string(json["vertices"].size() - 1));
+  const auto curves = result_from_json(json.dump(), "file");
+  ASSERT_FALSE(curves);
+  EXPECT_EQ(curves.error().message, "file: command: expected a result of 'curves' or 'slice'");
+}
 
 TEST(CapsJson, SummaryCounts) {
   const CapsResult r = sample();

@@ -86,6 +86,7 @@ class ShortRun(unittest.TestCase):
         self.assertEqual(rows["haas_drrs_sparse"]["outcome"], "certified")
         self.assertEqual(rows["haas_drrs_sparse"]["crossings"], 5)
         self.assertEqual(rows["degenerate_cusp_vs_y0"]["outcome"], "degenerate")
+        self.assertEqual(rows["chebsuite_2_4"]["crossings"], 93)
         for k in range(7, 13):
             self.assertEqual(rows[f"cxy_{k}"]["outcome"], "certified")
         # One oval; two branches; five crossings.

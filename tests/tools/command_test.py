@@ -553,7 +553,6 @@ class Caps(CommandTest):
         self.assertEqual((result["command"], result["status"]), ("caps", "exact"))
         with open(out["svg"]) as file:
             self.assertIn("</svg>", file.read())
-        self.refused(encase("check", out["json"]), 1, "'slice' only")
         with open(out["json"]) as file:
             self.assertEqual(encase("caps", *self.LINES, "--json", "-").stdout, file.read())
 
@@ -571,6 +570,28 @@ class Caps(CommandTest):
         few = encase("caps", *self.LINES, "--max-boxes", "50", "--summary")
         self.encased(few, 4)
         self.assertEqual(json.loads(few.stdout)["status"], "undecided")
+
+    def test_results_are_proved_again(self):
+        path = self.path("r.json")
+        encase("caps", *self.LINES, "--json", path, "-q")
+        run = encase("check", path)
+        self.encased(run, 0)
+        self.assertRegex(run.stdout, "^verified: [0-9]+ claims re-proved; exact")
+        with open(path) as file:
+            result = json.load(file)
+        result["edges"].pop()
+        with open(path, "w") as file:
+            json.dump(result, file)
+        run = encase("check", path)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("is missing", run.stdout)
+        self.assertIn("is not proved: 1 objection", run.stderr)
+        self.refused(encase("curves", "-e", "x = 1/3", "--onto", path), 1, "'curves' or 'slice'")
+        encase("caps", "-e", "x^2 + y^2 = 1", "-e", "x = 1", "--region", "-2 2 -2 2",
+               "--epsilon", "1e-3", "--json", path, "-q")
+        run = encase("check", path)
+        self.encased(run, 3)
+        self.assertIn("a claim of the paper, and not proved", run.stdout)
 
     def test_refuses_what_it_cannot_do(self):
         for epsilon, text in (("0", "positive"), ("-1", "positive"), ("nan", "positive"),
@@ -590,6 +611,82 @@ class Caps(CommandTest):
                      "--epsilon", "1e-3", "--self-crossings", "--summary")
         self.encased(run, 3)
         self.assertGreater(json.loads(run.stdout)["crossings"], 0)
+
+
+class Analytic(CommandTest):
+    """Curves that are not polynomials have every output that polynomials have."""
+    WAVES = ("-e", "wave: y = cos(x)", "-e", "product: sin(x*y) = 0.3", "--region", "-4 4 -4 4")
+
+    def test_json_is_proved_again(self):
+        path = self.path("r.json")
+        self.encased(encase("curves", *self.WAVES, "--json", path, "-q"), 0)
+        run = encase("check", path)
+        self.encased(run, 0)
+        with open(path) as file:
+            result = json.load(file)
+        self.assertEqual(result["curves"][0]["expression"], "y - cos(x)")
+        result["curves"][0]["expression"] = result["input"]["curves"][0]["expression"] = "y - cos(1.01*x)"
+        self.assertEqual(encase("check", self.path("r.json", json.dumps(result))).returncode, 1)
+
+    def test_picture_has_the_faces(self):
+        run = encase("curves", *self.WAVES, "--svg", "-", "--faces", "-q")
+        self.encased(run, 0)
+        summary = json.loads(encase("curves", *self.WAVES, "--summary").stdout)
+        self.assertEqual((summary["status"], summary["crossings"]), ("certified", 5))
+        self.assertEqual(run.stdout.count("<title>face "), summary["faces"])
+        self.assertEqual(summary["vertices"] - summary["edges"] + summary["faces"],
+                         summary["components"])
+
+    def test_vtk_files_and_mesh(self):
+        mesh, folder = self.path("a.om"), self.path("vtk")
+        run = encase("curves", *self.WAVES, "--mesh", mesh, "--faces", "-q")
+        if run.returncode == 0:
+            self.assertGreater(os.path.getsize(mesh), 1000)
+        else:
+            self.refused(run, 1, "built without OpenMesh")
+        run = encase("curves", *self.WAVES, "-o", folder, "--history", "-q")
+        if run.returncode != 0:
+            return self.refused(run, 1, "built without VTK")
+        with open(os.path.join(folder, "history.pvd")) as file:
+            self.assertGreater(file.read().count("<DataSet"), 5)
+        for block in ("cells", "curves", "faces", "edges", "vertices"):
+            self.assertTrue(os.path.exists(os.path.join(folder, "result", block + ".vtp")))
+
+    def test_added_to_polynomials_and_the_other_way(self):
+        first, both = self.path("first.json"), self.path("both.json")
+        circle, wave = ("-e", "circle: x^2 + y^2 = 4"), ("-e", "wave: y = sin(3x)")
+        counts = []
+        for before, after in ((circle, wave), (wave, circle)):
+            self.encased(encase("curves", *before, "--region", "-3 3 -3 3", "--json", first, "-q"), 0)
+            run = encase("curves", *after, "--onto", first, "--json", both, "--summary")
+            self.encased(run, 0)
+            counts.append([json.loads(run.stdout)[key] for key in ("crossings", "faces")])
+            self.encased(encase("check", both), 0)
+        self.assertEqual(counts, [[2, 4], [2, 4]])
+
+    def test_poles_hold_no_zeros(self):
+        path = self.path("r.json")
+        run = encase("curves", "-e", "y = tan(x)", "-e", "x y = 1/2 + 1/x", "--region", "-5 5 -5 5",
+                     "--json", path, "--summary")
+        self.encased(run, 0)
+        self.assertEqual(json.loads(run.stdout)["crossings"], 3)
+        self.encased(encase("check", path), 0)
+
+    def test_gaps_are_degenerate_and_all_else_is_certified(self):
+        pole = ("-e", "y = exp(1/x)", "-e", "x^2 + y^2 = 9", "--region", "-4 4 -4 4")
+        path, folder = self.path("r.json"), self.path("vtk")
+        run = encase("curves", *pole, "--json", path, "--summary")
+        self.encased(run, 3)
+        self.assertEqual(json.loads(run.stdout)["crossings"], 3)
+        self.encased(encase("check", path), 3)
+        run = encase("curves", *pole, "--svg", "-", "--faces", "-q")
+        self.encased(run, 3)
+        self.assertTrue(run.stdout.endswith("</svg>\n"))
+        run = encase("curves", *pole, "-o", folder, "--history", "-q")
+        if run.returncode != 3:
+            return self.refused(run, 1, "built without VTK")
+        self.assertTrue(os.path.exists(os.path.join(folder, "result.vtm")))
+        self.encased(encase("curves", "-e", "y = x/3", "--onto", path, "-q"), 3)
 
 
 class Slice(CommandTest):

@@ -63,16 +63,13 @@ std::vector<Example> touching_pairs() {
 }  // namespace
 
 Table files_table(const Request& request) {
-  Table table{"files", "The curves of tests/data/curves that are polynomials", kColumns, {}};
+  Table table{"files", "The curves of tests/data/curves", kColumns, {}};
   std::vector<std::filesystem::path> paths;
   for (const auto& entry : std::filesystem::directory_iterator(request.curves_directory))
     if (entry.path().extension() == ".curves") paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   for (const auto& path : paths) {
     const CurvesFile file = load_curves(path.string()).value();
-    if (!std::all_of(file.curves.begin(), file.curves.end(),
-                     [](const NamedCurve& curve) { return curve.function.is_polynomial(); }))
-      continue;
     for (const Setting& setting : settings())
       table.add(row_of(path.stem().string(), setting.name,
                        timed_encasement(file.curves, file.region ? *file.region : unit_region(),
