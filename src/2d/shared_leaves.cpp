@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -34,6 +35,8 @@ constexpr std::size_t kMostTogether = 256;
 
 /// A curve in a box where it may have zeros, with its patch there if it has one already.
 struct Alive {
+  Alive() {}  // the patch is not set: most of it is overwritten soon
+
   int curve = -1;
   int expanded_at = -1;  ///< the level of the box that the patch was made for; -1: no patch
   Patch patch;
@@ -85,7 +88,7 @@ class SharedSubdivision {
 
   Look look_at(int level, Part* part);
   void visit(int level, int in_vain, Part& part);
-  int find_open_pairs(const Part& part);
+  int find_open_pairs(const Part& part, int most);
   void add_leaf(const Part& part);
   bool provide_patch(const Box<2>& box, int level, Alive* alive);
 
@@ -152,18 +155,23 @@ SharedSubdivision::Look SharedSubdivision::look_at(int level, Part* part) {
 }
 
 /// The pairs of curves that may have common zeros in the part: their number, and in `open_`, by the
-/// second and then the first one's place among those alive.
-int SharedSubdivision::find_open_pairs(const Part& part) {
+/// second and then the first one's place among those alive. Ends with the first beyond `most`.
+int SharedSubdivision::find_open_pairs(const Part& part, int most) {
   const auto& alive = part.alive;
   strips_.resize(alive.size());
   open_.clear();
+  int count = 0;
   for (std::size_t j = 0; j < alive.size(); ++j) {
     if (alive[j].expanded_at >= 0) strips_[j] = strip_of(alive[j].patch);
-    for (std::size_t i = 0; i < j; ++i)
-      open_.push_back(alive[i].expanded_at < 0 || alive[j].expanded_at < 0 ||
-                      !apart(strips_[i], strips_[j]));
+    for (std::size_t i = 0; i < j; ++i) {
+      const bool open = alive[i].expanded_at < 0 || alive[j].expanded_at < 0 ||
+                        !apart(strips_[i], strips_[j]);
+      open_.push_back(open);
+      count += open;
+      if (count > most) return count;
+    }
   }
-  return static_cast<int>(std::count(open_.begin(), open_.end(), true));
+  return count;
 }
 
 /// Makes a part a leaf; its open pairs have been found.
@@ -200,12 +208,10 @@ void SharedSubdivision::visit(int level, int in_vain, Part& part) {
   const Box<2> box = part.box;
   const int axis = cover::kSplitX - wider_axis(box);
   const bool several = part.alive.size() > kSeveral;
-  const bool looks_at_pairs = !several && part.sharp;
-  const int open = looks_at_pairs ? find_open_pairs(part) : 0;
-  if (part.alive.size() <= few_ || (looks_at_pairs && open <= kFewPairs) || in_vain >= kInVain ||
-      level == kDeepest || result_.visited >= kMostBoxes ||
-      !halve_box(box, axis, &lower.box, &upper.box)) {
-    if (!looks_at_pairs) find_open_pairs(part);
+  const bool few_open = !several && part.sharp && find_open_pairs(part, kFewPairs) <= kFewPairs;
+  if (part.alive.size() <= few_ || few_open || in_vain >= kInVain || level == kDeepest ||
+      result_.visited >= kMostBoxes || !halve_box(box, axis, &lower.box, &upper.box)) {
+    if (!few_open) find_open_pairs(part, std::numeric_limits<int>::max());
     path_.length = level;
     add_leaf(part);
     return;

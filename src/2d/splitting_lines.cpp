@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kMiddle = 0.35;     // where the middle of the projections begins
 constexpr int kMostInMiddle = 1500;  // projections
+// Of more than two curves: that many projections, and crossings from which on a cell is halved
+// whatever the branches of one curve do.
+constexpr int kMostInMiddleOfMany = 64, kManyCrossings = 16;
 constexpr int kMaxBisected = 6;      // crossings up to which pairs of them are bisected
 constexpr int kBisectedPairs = 3;    // of crossings
 constexpr int kSaddles = 4;          // of a curve
@@ -107,7 +110,8 @@ void SplittingLines::propose_between_crossings() {
     return partition_.crossings[crossings[i]].point;
   };
   // The largest gap in the middle of the projections, in four directions.
-  const double outside = std::max(kMiddle, 0.5 - 0.5 * kMostInMiddle / n);
+  const int most = cell_.curves().size() > 2 ? kMostInMiddleOfMany : kMostInMiddle;
+  const double outside = std::max(kMiddle, 0.5 - 0.5 * most / n);
   const int from = static_cast<int>(outside * (n - 1));
   const int to = std::max(from + 1, static_cast<int>(std::ceil((1 - outside) * (n - 1))));
   for (const Point<2>& d :
@@ -438,7 +442,8 @@ bool SplittingLines::find_best() {
     if (cell_.prove_best() || find_bisector()) return true;
   }
   propose_between_crossings();
-  if (!is_good_enough()) propose_between_branches();
+  const bool crowded = curves.size() > 2 && cell_.cell().crossings.size() >= kManyCrossings;
+  if (!crowded && !is_good_enough()) propose_between_branches();
   if (!is_good_enough()) propose_between_curves();
   if (!is_good_enough()) propose_between_two_branches();
   if (!seems_to_save(fast_ ? kPoorWhenFast : kPoor)) propose_closest_approach();
