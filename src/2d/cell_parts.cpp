@@ -15,7 +15,7 @@ namespace {
 /// An edge of a cell with all its collinear parts, counter-clockwise.
 struct Edge {
   int line = -1;
-  int line_before = -1;      ///< that of the edge before, which it meets where it begins
+  int line_before = -1;    ///< that of the edge before, which it meets where it begins
   bool ascending = false;  ///< the line's parameter grows along it
   /// Places in the cell's word, which has no more than four.
   std::array<int, 4> entry{};
