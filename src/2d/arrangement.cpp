@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -49,6 +50,7 @@ class BoundaryPoints {
   /// The root's parameter rounded to nearest, ties to even.
   double parameter(const FilteredFunction<2>& f, const Line& line, const LineCrossing& crossing) {
     RootInterval root{crossing.lo, crossing.hi};
+    if (const auto at = by_newton(f, line, root)) return *at;
     // Around zero halving would take as long as doubles get smaller.
     if (root.lo < 0 && root.hi > 0 && !narrow_on_line(f, line, 0, &root, kernel_)) return 0;
     while (refine_on_line(f, line, &root, kernel_)) continue;
@@ -60,6 +62,38 @@ class BoundaryPoints {
     const Sign here = f.sign_at(point_on_line(line, half), kernel_);
     if (here == Sign::Zero) return nearest_double(half);
     return here == sign_on_line(f, line, root.lo, kernel_) ? root.hi : root.lo;
+  }
+
+  /// The same by Newton's iteration, the last step with a more precise value: nothing unless f is
+  /// proved to change its sign between the points halfway to both neighbours of what this leads to.
+  std::optional<double> by_newton(const FilteredFunction<2>& f, const Line& line,
+                                  const RootInterval& root) {
+    constexpr int kSteps = 5;
+    const int p = parameter_axis(line), q = 1 - p;
+    const long double slope = -static_cast<long double>(line.normal[p]) / line.normal[q],
+                      base = -static_cast<long double>(line.offset) / line.normal[q];
+    double t = root.lo + 0.5 * (root.hi - root.lo);
+    for (int k = 0; k < kSteps; ++k) {
+      const long double across = base + slope * t;
+      Point<2> at;
+      at[p] = t;
+      at[q] = static_cast<double>(across);
+      const Point<2> gradient = f.gradient(at);
+      double value = f.approximate(at);
+      if (k + 1 == kSteps)
+        value = f.evaluate(at, 2 * Kernel::kDoubleBits).value +
+                gradient[q] * static_cast<double>(across - at[q]);
+      t -= value / (gradient[p] + gradient[q] * static_cast<double>(slope));
+      if (!(root.lo < t && t < root.hi)) return std::nullopt;
+    }
+    const Rational middle(t);
+    std::array<Sign, 2> signs;
+    for (int k = 0; k < 2; ++k) {
+      const double neighbour = std::nextafter(t, k == 0 ? root.lo : root.hi);
+      signs[k] = f.sign_at(point_on_line(line, (middle + Rational(neighbour)) / 2), kernel_);
+    }
+    const bool changes = signs[0] != Sign::Zero && signs[0] == -signs[1];
+    return changes ? std::optional(t) : std::nullopt;
   }
 
   const Encasement& e_;

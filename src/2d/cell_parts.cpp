@@ -15,9 +15,13 @@ namespace {
 /// An edge of a cell with all its collinear parts, counter-clockwise.
 struct Edge {
   int line = -1;
-  int line_before = -1;      ///< that of the edge before, which it meets where it begins
-  bool ascending = false;    ///< the line's parameter grows along it
-  std::vector<int> entries;  ///< places in the cell's word
+  int line_before = -1;    ///< that of the edge before, which it meets where it begins
+  bool ascending = false;  ///< the line's parameter grows along it
+  /// Places in the cell's word, which has no more than four.
+  std::array<int, 4> entry{};
+  int entries = 0;
+  int first() const { return entry[0]; }
+  int last() const { return entry[static_cast<std::size_t>(entries) - 1]; }
 };
 
 class Maker {
@@ -169,52 +173,53 @@ class Maker {
   }
 
   /// The edges of a cell with their entries, which must follow each other as in its word.
-  bool edges_of(std::size_t k, std::vector<Edge>* edges) {
+  bool edges_of(std::size_t k) {
     const Cell& cell = e_.cells[k];
     const int size = static_cast<int>(cell.word.size());
-    std::vector<int> sequence;
+    edges_.clear();
+    bool right = true;
+    int found = 0, last = -1;  // entries
     for (const Vertex& v : cell.vertices) {
       if (v.line_in == v.line_out) continue;
-      Edge edge;
+      Edge& edge = edges_.emplace_back();
       edge.line = v.line_out;
       edge.line_before = v.line_in;
       edge.ascending = parameter_grows(e_.lines[edge.line], positive_[edge.line]);
       for (int i = 0; i < size; ++i)
-        if (e_.line_crossings[cell.word[i]].line == edge.line) edge.entries.push_back(i);
-      std::sort(edge.entries.begin(), edge.entries.end(), [&](int a, int b) {
+        if (e_.line_crossings[cell.word[i]].line == edge.line) edge.entry[edge.entries++] = i;
+      std::sort(edge.entry.begin(), edge.entry.begin() + edge.entries, [&](int a, int b) {
         return (rank_[cell.word[a]] < rank_[cell.word[b]]) == edge.ascending;
       });
-      sequence.insert(sequence.end(), edge.entries.begin(), edge.entries.end());
-      edges->push_back(std::move(edge));
+      for (int i = 0; i < edge.entries; ++i) {
+        right = right && (found++ == 0 || edge.entry[i] == (last + 1) % size);
+        last = edge.entry[i];
+      }
     }
-    bool right = edges->size() >= 3 && static_cast<int>(sequence.size()) == size;
-    for (int i = 0; right && i < size; ++i)
-      right = sequence[(i + 1) % size] == (sequence[i] + 1) % size;
+    right = right && edges_.size() >= 3 && found == size;
     return right || fail("the word of " + name(k) + " does not follow its boundary");
   }
 
   bool join_along(std::size_t k) {
     const Cell& cell = e_.cells[k];
     const int size = static_cast<int>(cell.word.size());
-    std::vector<Edge> edges;
-    if (!edges_of(k, &edges)) return false;
+    if (!edges_of(k)) return false;
     int last = 0;  // the entry passed last
-    for (const Edge& edge : edges)
-      if (!edge.entries.empty()) last = edge.entries.back();
-    for (const Edge& edge : edges) {
-      if (edge.entries.empty()) {
+    for (const Edge& edge : edges_)
+      if (edge.entries > 0) last = edge.last();
+    for (const Edge& edge : edges_) {
+      if (edge.entries == 0) {
         const int gap = gap_at(edge.line, edge.line_before);
         if (gap < 0) return fail("neighbouring edges of " + name(k) + " are parallel");
         join(k, last, edge.line, gap);
         continue;
       }
-      join(k, (edge.entries.front() + size - 1) % size, edge.line,
-           rank_[cell.word[edge.entries.front()]] + (edge.ascending ? 0 : 1));
-      for (std::size_t i = 0; i < edge.entries.size(); ++i) {
-        const int rank = rank_[cell.word[edge.entries[i]]];
-        if (i > 0 && rank - rank_[cell.word[edge.entries[i - 1]]] != (edge.ascending ? 1 : -1))
+      join(k, (edge.first() + size - 1) % size, edge.line,
+           rank_[cell.word[edge.first()]] + (edge.ascending ? 0 : 1));
+      for (int i = 0; i < edge.entries; ++i) {
+        const int rank = rank_[cell.word[edge.entry[i]]];
+        if (i > 0 && rank - rank_[cell.word[last]] != (edge.ascending ? 1 : -1))
           return fail("the word of " + name(k) + " lacks a line crossing");
-        last = edge.entries[i];
+        last = edge.entry[i];
         join(k, last, edge.line, rank + (edge.ascending ? 1 : 0));
       }
     }
@@ -226,14 +231,20 @@ class Maker {
                  static_cast<int>(parts_.pieces.size()) + first_gap_[line] + gap);
   }
 
+  static bool are_parallel(const Line& first, const Line& second) {
+    const auto a = first.exact(), b = second.exact();
+    return a[0] * b[1] == a[1] * b[0];
+  }
+
   /// The gap of a line in which it meets another line; -1 if they are parallel.
   int gap_at(int line, int other) const {
     const std::vector<int>& here = parts_.on_line[line];
     if (here.empty()) return 0;
     const Line &first = e_.lines[line], &second = e_.lines[other];
     const Interval near = meet(first, second)[parameter_axis(first)];
-    const auto a = first.exact(), b = second.exact();
-    if (a[0] * b[1] == a[1] * b[0]) return -1;
+    // (Parallel lines meet in infinite intervals.)
+    if (!(std::isfinite(near.lo) && std::isfinite(near.hi)) && are_parallel(first, second))
+      return -1;
     const auto before = [&](int k) {
       const LineCrossing& c = e_.line_crossings[k];
       if (c.hi <= near.lo) return true;
@@ -266,6 +277,7 @@ class Maker {
   std::vector<int> rank_;       ///< of every line crossing on its line
   std::vector<int> first_gap_;  ///< of every line, in the numbers of all gaps
   std::vector<bool> positive_;  ///< for every line above the cell at hand, its side
+  std::vector<Edge> edges_;     ///< of the cell at hand
   UnionFind joined_{0};         ///< pieces, then gaps
   std::string fault_;
 };

@@ -12,7 +12,7 @@ namespace encase {
 namespace {
 
 // A part is worth so much work, and there are enough of them for the threads of most machines.
-constexpr std::size_t kLeastPart = 128;
+constexpr std::size_t kLeastPart = 512;
 constexpr int kMostHalvings = 12;
 
 /// About in proportion to the work that a cell takes.

@@ -65,8 +65,23 @@ class Charting {
 
  private:
   bool keeps_sign(const FilteredFunction<2>& f, double lo, double hi) const {
-    return f.degree() >= 0 &&
+    return f.degree() >= 0 && !(question_.curves.size() > 2 && changes_sign(f, lo, hi)) &&
            sign_on_box(f, {{-reach_, lo}, {reach_, hi}}, question_.kernel).has_value();
+  }
+
+  /// Whether f is proved to have different signs at some points of a box. (Of many curves most
+  /// boxes are asked about in vain, and values cost less than nets.)
+  bool changes_sign(const FilteredFunction<2>& f, double lo, double hi) const {
+    bool positive = false, negative = false;
+    for (const Point<2>& at :
+         {Point<2>{0, lo}, Point<2>{0, hi}, Point<2>{reach_, lo}, Point<2>{-reach_, hi},
+          Point<2>{-reach_, lo}, Point<2>{reach_, hi}}) {
+      const auto v = f.evaluate(at, Kernel::kDoubleBits);
+      positive = positive || v.value > v.error;
+      negative = negative || v.value < -v.error;
+      if (positive && negative) return true;
+    }
+    return false;
   }
 
   bool divide(double lo, double hi, const std::vector<int>& curves, Surroundings* result) {

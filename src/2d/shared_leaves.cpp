@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -19,13 +20,13 @@ namespace {
 /// With so few curves alive, or so few pairs of several that may meet, a box is a leaf.
 constexpr std::size_t kFew = 2;
 constexpr int kFewPairs = 2;
-/// So many halvings in a row that took no curve away: twice across either axis.
-constexpr int kInVain = 4;
+/// So many halvings in a row that took no curve away: four times across either axis.
+constexpr int kInVain = 8;
 /// With more curves a halving counts as long as it takes some away from the other half, and it is
 /// not asked which pairs may meet.
 constexpr std::size_t kSeveral = 8;
 constexpr int kDeepest = 40;  // levels of halvings
-constexpr int kMostBoxes = 200000;
+constexpr int kMostBoxes = 200000, kMostBoxesPerCurve = 4000;
 /// A part with both widths above this fraction of the whole's is treated as the whole.
 constexpr double kHardlySmaller = 0.6;
 /// So many leaves in which two curves are apart may be excluded with what is between them: a
@@ -34,6 +35,8 @@ constexpr std::size_t kMostTogether = 256;
 
 /// A curve in a box where it may have zeros, with its patch there if it has one already.
 struct Alive {
+  Alive() {}  // the patch is not set: most of it is overwritten soon
+
   int curve = -1;
   int expanded_at = -1;  ///< the level of the box that the patch was made for; -1: no patch
   Patch patch;
@@ -47,6 +50,7 @@ class SharedSubdivision {
         half_planes_(half_planes),
         stop_(stop),
         kernel_(kernel),
+        most_boxes_(std::min(kMostBoxes, kMostBoxesPerCurve * curves.size())),
         lower_(kDeepest + 1) {}
 
   SharedLeaves run() {
@@ -69,7 +73,7 @@ class SharedSubdivision {
     for (std::size_t c = 0; c < whole.alive.size(); ++c) whole.alive[c].curve = static_cast<int>(c);
     look_at(0, &whole);
     visit(0, 0, whole);
-    return stopped_ || result_.visited < kMostBoxes;
+    return stopped_ || result_.visited < most_boxes_;
   }
 
   /// A box, whether it is known to lie in all half planes, and the curves that may have zeros
@@ -85,7 +89,7 @@ class SharedSubdivision {
 
   Look look_at(int level, Part* part);
   void visit(int level, int in_vain, Part& part);
-  int find_open_pairs(const Part& part);
+  int find_open_pairs(const Part& part, int most);
   void add_leaf(const Part& part);
   bool provide_patch(const Box<2>& box, int level, Alive* alive);
 
@@ -98,6 +102,7 @@ class SharedSubdivision {
   std::vector<Strip> strips_;
   std::vector<char> open_;
   bool stopped_ = false;
+  const int most_boxes_;
   std::size_t few_ = kFew;
   /// The lower halves, by level. (An upper half takes its parent's place.)
   std::vector<Part> lower_;
@@ -152,18 +157,23 @@ SharedSubdivision::Look SharedSubdivision::look_at(int level, Part* part) {
 }
 
 /// The pairs of curves that may have common zeros in the part: their number, and in `open_`, by the
-/// second and then the first one's place among those alive.
-int SharedSubdivision::find_open_pairs(const Part& part) {
+/// second and then the first one's place among those alive. Ends with the first beyond `most`.
+int SharedSubdivision::find_open_pairs(const Part& part, int most) {
   const auto& alive = part.alive;
   strips_.resize(alive.size());
   open_.clear();
+  int count = 0;
   for (std::size_t j = 0; j < alive.size(); ++j) {
     if (alive[j].expanded_at >= 0) strips_[j] = strip_of(alive[j].patch);
-    for (std::size_t i = 0; i < j; ++i)
-      open_.push_back(alive[i].expanded_at < 0 || alive[j].expanded_at < 0 ||
-                      !apart(strips_[i], strips_[j]));
+    for (std::size_t i = 0; i < j; ++i) {
+      const bool open = alive[i].expanded_at < 0 || alive[j].expanded_at < 0 ||
+                        !apart(alive[i].patch, strips_[i], alive[j].patch, strips_[j]);
+      open_.push_back(open);
+      count += open;
+      if (count > most) return count;
+    }
   }
-  return static_cast<int>(std::count(open_.begin(), open_.end(), true));
+  return count;
 }
 
 /// Makes a part a leaf; its open pairs have been found.
@@ -200,12 +210,10 @@ void SharedSubdivision::visit(int level, int in_vain, Part& part) {
   const Box<2> box = part.box;
   const int axis = cover::kSplitX - wider_axis(box);
   const bool several = part.alive.size() > kSeveral;
-  const bool looks_at_pairs = !several && part.sharp;
-  const int open = looks_at_pairs ? find_open_pairs(part) : 0;
-  if (part.alive.size() <= few_ || (looks_at_pairs && open <= kFewPairs) || in_vain >= kInVain ||
-      level == kDeepest || result_.visited >= kMostBoxes ||
-      !halve_box(box, axis, &lower.box, &upper.box)) {
-    if (!looks_at_pairs) find_open_pairs(part);
+  const bool few_open = !several && part.sharp && find_open_pairs(part, kFewPairs) <= kFewPairs;
+  if (part.alive.size() <= few_ || few_open || in_vain >= kInVain || level == kDeepest ||
+      result_.visited >= most_boxes_ || !halve_box(box, axis, &lower.box, &upper.box)) {
+    if (!few_open) find_open_pairs(part, std::numeric_limits<int>::max());
     path_.length = level;
     add_leaf(part);
     return;

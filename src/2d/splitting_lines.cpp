@@ -11,10 +11,13 @@ namespace {
 
 constexpr double kMiddle = 0.35;     // where the middle of the projections begins
 constexpr int kMostInMiddle = 1500;  // projections
-constexpr int kMaxBisected = 6;      // crossings up to which pairs of them are bisected
-constexpr int kBisectedPairs = 3;    // of crossings
-constexpr int kSaddles = 4;          // of a curve
-constexpr int kBranchPairs = 12;     // of boundary points of a curve, on different branches
+// Of more than two curves: that many projections, and crossings from which on a cell is halved
+// whatever the branches of one curve do.
+constexpr int kMostInMiddleOfMany = 64, kManyCrossings = 16;
+constexpr int kMaxBisected = 6;    // crossings up to which pairs of them are bisected
+constexpr int kBisectedPairs = 3;  // of crossings
+constexpr int kSaddles = 4;        // of a curve
+constexpr int kBranchPairs = 12;   // of boundary points of a curve, on different branches
 constexpr int kBranchPairsWhenFast = 6;
 constexpr int kSplitCurves = 4;        // curves the branches of which are told apart
 constexpr int kCurvePairs = 4;         // of neighbours on the boundary, of different curves
@@ -23,7 +26,8 @@ constexpr int kMostApproached = 2000;  // points, of all pairs of which the clos
 constexpr int kApproachSteps = 2;
 constexpr int kProjections = 2;           // onto the curve, in each
 constexpr double kEnoughWhenFast = -0.5;  // expected cells that a cut has to save
-constexpr double kPoor = 1;  // a cut that does not save so many calls for closest approach
+constexpr double kPoor = 1;          // a cut that does not save so many calls for closest approach
+constexpr double kPoorOfMany = 0.5;  // the same, of more than two curves
 constexpr double kPoorWhenFast = -1;
 constexpr double kPoorWhenStalled = 0;  // and in the first levels without progress for fans
 constexpr int kFanLevels = 2;
@@ -107,7 +111,8 @@ void SplittingLines::propose_between_crossings() {
     return partition_.crossings[crossings[i]].point;
   };
   // The largest gap in the middle of the projections, in four directions.
-  const double outside = std::max(kMiddle, 0.5 - 0.5 * kMostInMiddle / n);
+  const int most = cell_.curves().size() > 2 ? kMostInMiddleOfMany : kMostInMiddle;
+  const double outside = std::max(kMiddle, 0.5 - 0.5 * most / n);
   const int from = static_cast<int>(outside * (n - 1));
   const int to = std::max(from + 1, static_cast<int>(std::ceil((1 - outside) * (n - 1))));
   for (const Point<2>& d :
@@ -438,10 +443,12 @@ bool SplittingLines::find_best() {
     if (cell_.prove_best() || find_bisector()) return true;
   }
   propose_between_crossings();
-  if (!is_good_enough()) propose_between_branches();
+  const bool crowded = curves.size() > 2 && cell_.cell().crossings.size() >= kManyCrossings;
+  if (!crowded && !is_good_enough()) propose_between_branches();
   if (!is_good_enough()) propose_between_curves();
   if (!is_good_enough()) propose_between_two_branches();
-  if (!seems_to_save(fast_ ? kPoorWhenFast : kPoor)) propose_closest_approach();
+  if (!seems_to_save(fast_ ? kPoorWhenFast : curves.size() > 2 ? kPoorOfMany : kPoor))
+    propose_closest_approach();
   if (!fast_ && stall > 0 && stall <= kFanLevels && !seems_to_save(kPoorWhenStalled))
     propose_fans();
   return cell_.prove_best() || find_bisector();

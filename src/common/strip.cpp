@@ -46,6 +46,23 @@ void linearize(const double* net, int count, const double* at, Linearized* resul
   *result = {{rows, lanes}, least_lane(lo), greatest_lane(hi)};
 }
 
+/// Whether y[0] f + y[1] g lies beyond +-radius[0] everywhere, or y[2] f + y[3] g beyond
+/// +-radius[1].
+bool keeps_sign(const double* f, const double* g, int count, const double* y,
+                const double* radius) {
+  for (int k = 0; k < 2; ++k) {
+    const Row u = Row::all(y[2 * k]), v = Row::all(y[2 * k + 1]);
+    Row lo = u * Row::load(f) + v * Row::load(g), hi = lo;
+    for (int i = 1; i < count; ++i) {
+      const Row here = u * Row::load(f + 8 * i) + v * Row::load(g + 8 * i);
+      lo = least(lo, here);
+      hi = greatest(hi, here);
+    }
+    if (least_lane(lo) > radius[k] || greatest_lane(hi) < -radius[k]) return true;
+  }
+  return false;
+}
+
 }  // namespace encase::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -54,6 +71,7 @@ namespace encase {
 namespace {
 
 HWY_EXPORT(linearize);
+HWY_EXPORT(keeps_sign);
 
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
 constexpr double kTiny = 0x1p-1000;  // more than what gradual underflow can lose
@@ -103,6 +121,20 @@ bool apart(const Strip& a, const Strip& b) {
   // Cramer's rule: determinant * x and determinant * y.
   return lies_beyond(determinant, b.slope[1], a, a.slope[1], b) ||
          lies_beyond(determinant, b.slope[0], a, a.slope[0], b);
+}
+
+bool apart(const Patch& f, const Strip& a, const Patch& g, const Strip& b) {
+  if (apart(a, b)) return true;
+  if (f.count != g.count || f.rows_axis != g.rows_axis) return false;
+  const double y[4] = {b.slope[1], -a.slope[1], -b.slope[0], a.slope[0]};
+  double radius[2];
+  for (int k = 0; k < 2; ++k) {
+    const double u = std::fabs(y[2 * k]), v = std::fabs(y[2 * k + 1]);
+    // Two products and a sum round. (Infinite, or no number, where one of them may overflow.)
+    const double rounding = 0x1p-51 * (u * f.magnitude() + v * g.magnitude());
+    radius[k] = (u * f.radius + v * g.radius + rounding) * kUp + kTiny;
+  }
+  return HWY_DYNAMIC_DISPATCH(keeps_sign)(f.b[0].data(), g.b[0].data(), f.count, y, radius);
 }
 
 }  // namespace encase

@@ -43,7 +43,7 @@ Polynomial<2> outside_of_rectangle(const Polynomial<2>& f, const Point<2>& half,
   for (const auto& term : f.terms()) {
     Rational c = term.coefficient;
     for (int k = 0; k < 2; ++k)
-      for (int n = 0; n < term.exponent[k]; ++n) c *= Rational(half[k]);
+      for (int n = 0; half[k] != 1 && n < term.exponent[k]; ++n) c *= Rational(half[k]);
     terms.push_back({{degree - term.exponent[0] - term.exponent[1], term.exponent[1 - chart]}, c});
   }
   return Polynomial<2>::from_terms(std::move(terms));
