@@ -84,7 +84,8 @@ bool check_facet_points(SpaceClaims& claims) {
   std::vector<Facet> copies = e.facets;
   std::vector<Facet*> facets;
   for (Facet& facet : copies) facets.push_back(&facet);
-  const std::vector<FacetPoint> points = number_facet_points(e.planes, claims.charts, facets);
+  const std::vector<FacetPoint> points =
+      number_facet_points(claims.surfaces, e.planes, claims.charts, facets);
   bool same = points.size() == e.facet_points.size();
   for (std::size_t k = 0; same && k < points.size(); ++k)
     same = points[k].surfaces == e.facet_points[k].surfaces &&
