@@ -56,6 +56,8 @@ struct Part {
   Box<3> box;
   Box<3> zeros{{-1, -1, -1}, {1, 1, 1}};  ///< in the box's coordinates, where all zeros are
   CuttingPlanes::Set cutting = CuttingPlanes::kAll;
+  /// Along each axis, about: how much the Jacobian varies, or how wide the box is.
+  Point<3> bend{1, 1, 1};
   std::array<int, 3> bits{};  ///< in which the nets were made
 };
 
@@ -85,8 +87,9 @@ class SpaceSearch {
   }
 
   static bool suits(const System<3>& system) {
-    return std::all_of(system.begin(), system.end(),
-                       [](const auto* f) { return degree(*f) < SpaceNet::kMaxCount; });
+    return std::all_of(system.begin(), system.end(), [](const auto* f) {
+      return f->is_polynomial() && degree(*f) < SpaceNet::kMaxCount;
+    });
   }
 
   RootIsolation<3> run() {
@@ -98,8 +101,14 @@ class SpaceSearch {
     else
       waiting_.push_back(root);
     while (!waiting_.empty()) {
-      const std::vector<Part> band = std::exchange(waiting_, {});
-      for (const Part& part : band) {
+      std::vector<Part> band = std::exchange(waiting_, {});
+      for (Part& part : band) {
+        // Fresh nets have the coordinates of a larger box where the centre is not a double.
+        for (int i = 0; i < 3; ++i)
+          if (!centered(part.box.lo[i], part.box.hi[i]).exact) {
+            part.zeros.lo[i] = -1;
+            part.zeros.hi[i] = 1;
+          }
         frames_[0].order = {0, 1, 2};
         for (int i = 0; i < 3; ++i) expand(i, part.box, part.bits[i], &frames_[0]);
         visit(part, 0, 0);
@@ -172,30 +181,29 @@ class SpaceSearch {
       return settle(part, cover::kExcluded);
     if (verdict.contracts)
       if (const auto k = root_in(part, verdict.contraction)) return settle(part, *k);
+    part.bend = verdict.bend;
+    if (part.bend == Point<3>{})
+      for (int i = 0; i < 3; ++i) part.bend[i] = part.box.width(i) / tree_.root().width(i);
     int axis = free_axis(part);
-    if (axis < 0) axis = verdict.axis;
-    if (axis < 0) axis = longest_axis(part.box);
+    if (axis < 0)
+      axis = static_cast<int>(std::max_element(part.bend.begin(), part.bend.end()) -
+                              part.bend.begin());
     split(part, axis, frame, level);
   }
 
-  /// An axis across which one of the halves is known to have no zeros, or -1.
+  /// An axis across which one of the halves is known to have no zeros and a halving helps, or -1.
   static int free_axis(const Part& part) {
+    const double most = *std::max_element(part.bend.begin(), part.bend.end());
     int axis = -1;
     double least = 2;
     for (int i = 0; i < 3; ++i) {
       const double width = part.zeros.hi[i] - part.zeros.lo[i];
-      if ((part.zeros.hi[i] < 0 || part.zeros.lo[i] > 0) && width < least) {
+      if ((part.zeros.hi[i] < 0 || part.zeros.lo[i] > 0) && part.bend[i] >= most / 8 &&
+          width < least) {
         least = width;
         axis = i;
       }
     }
-    return axis;
-  }
-
-  static int longest_axis(const Box<3>& box) {
-    int axis = 0;
-    for (int i = 1; i < 3; ++i)
-      if (box.width(i) > box.width(axis)) axis = i;
     return axis;
   }
 
@@ -239,6 +247,7 @@ class SpaceSearch {
     for (int k = 0; k < 2; ++k) {
       Part& h = half[k];
       h.node = first + k;
+      h.bend[axis] *= 0.5;
       // From the halved coordinate s to 2 s + 1 or 2 s - 1, rounded outward.
       const double shift = k == 0 ? 1 : -1;
       h.zeros.lo[axis] = std::max(-1.0, 2 * part.zeros.lo[axis] + shift - 0x1p-48);

@@ -452,19 +452,14 @@ void test_system(const SpaceSystem& system, double quality, SpaceVerdict* verdic
       for (double& entry : row) entry *= inverse;
   Preconditioned combinations(system, slopes, y, regular ? 1.0 : 0.0);
   verdict->excluded = combinations.excludes(&verdict->zeros);
-  verdict->axis = -1;
+  verdict->bend = {};
   // Far from a contraction, where it does not pay to look closer.
   constexpr double kFar = 8;
   if (verdict->excluded || combinations.widest() > kFar) return;
   const Matrix<3> deviation = combinations.deviations();
-  double most = 0;
   for (int j = 0; j < 3; ++j) {
-    double column = 0;
-    for (int i = 0; i < 3; ++i) column += deviation[i][j];
-    if (column > most && std::isfinite(column)) {
-      most = column;
-      verdict->axis = j;
-    }
+    const double column = deviation[0][j] + deviation[1][j] + deviation[2][j];
+    verdict->bend[j] = std::isfinite(column) ? column : 0;
   }
   if (!regular) return;
   for (int i = 0; i < 3; ++i)

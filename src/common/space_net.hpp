@@ -56,7 +56,8 @@ struct SpaceVerdict {
   /// As box_tests' contraction, if it was found with the quality asked for.
   bool contracts = false;
   Contraction<3> contraction;
-  int axis = -1;  ///< across which a halving promises most; -1: unknown
+  /// How much the Jacobian varies along each axis, as far as a halving helps; zero: not known.
+  Point<3> bend{};
 };
 void test_system(const SpaceSystem& system, double quality, SpaceVerdict* verdict);
 

@@ -72,6 +72,15 @@ class ShortRun(unittest.TestCase):
             self.assertGreater(row["by double"], 0)
         self.assertEqual(self.tables["work"][0]["authors' cells"], "7-10")
 
+    def test_common_points_in_space_are_all_proved(self):
+        self.assertEqual([row["degree"] for row in self.tables["space"]], [2, 3])
+        for row in self.tables["space"]:
+            self.assertGreater(row["boxes"], 0)
+            self.assertEqual(row["rounded"], "all")
+            self.assertEqual(row["unresolved"], 0)
+            for column in ("floor us", "ms", "floors", "with setup ms", "ms for them"):
+                self.assertGreater(row[column], 0, column)
+
     def test_all_files_of_the_directory_are_encased(self):
         rows = {row["curves"]: row for row in self.tables["files"] if row["setting"] == "default"}
         self.assertEqual(rows["haas_drrs_sparse"]["outcome"], "certified")

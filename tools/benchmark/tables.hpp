@@ -45,6 +45,10 @@ Table memory_table(const Request& request);
 /// The seven classes of CAPS, table 1, re-created: sizes and times beside the published ones.
 Table caps_table(const Request& request);
 
+/// The common points of three surfaces, and the critical points of two, up to degree 6; times are
+/// medians over the seeds.
+Table space_table(const Request& request);
+
 /// Circles that cross in up to half a million points: count, time and memory.
 Table circles_table(const Request& request);
 /// Many curves with about one branch each in a small region.
