@@ -307,6 +307,11 @@ bool Encaser::open_region() {
   return false;
 }
 
+bool Encaser::open_region_as_asked() {
+  use_region(result_.region);
+  return open_polygon();
+}
+
 /// Whether the polygon to be used is generic for the curves.
 bool Encaser::open_polygon() {
   auto cell = partition_->open(sides_);

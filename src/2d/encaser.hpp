@@ -33,6 +33,7 @@ class Encaser {
   Status check_input() const;    // 1. sanity
   void separate_components();    // 1. shared and repeated components
   bool open_region();            // 2. a generic polygon
+  bool open_region_as_asked();   //    or only the polygon asked, if it is generic
   void isolate_crossings();      // 2. crossings first
   void find_critical_regions();  // 3. critical regions
   void give_up_on_region();      //    or one undecided cell

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "2d/encaser.hpp"
 #include "common/filtered_function.hpp"
 #include "encase/arrangement.hpp"
 
@@ -11,10 +12,9 @@ namespace encase {
 
 namespace {
 
-/// Whether the encasement is of the polygon exactly and of the curves as given.
-bool is_as_asked(const Encasement& e, const Region& polygon,
-                 const std::vector<NamedCurve>& curves) {
-  bool same = e.region_used.corners == polygon.corners && e.curves.size() == curves.size();
+/// Whether the encasement's curves are those given.
+bool is_as_asked(const Encasement& e, const std::vector<NamedCurve>& curves) {
+  bool same = e.curves.size() == curves.size();
   for (std::size_t k = 0; same && k < curves.size(); ++k)
     same = e.curves[k].function == curves[k].function;
   return same;
@@ -74,9 +74,19 @@ std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet) {
     curves.push_back(
         {surfaces_[static_cast<std::size_t>(s)].name, restricted(facet->plane, s).function});
   ++encased_;
-  auto result = encase::encase(curves, facet->polygon, options_);
-  if (!result) return FacetTrouble{Outcome::Undecided, result.error().message};
-  Encasement& e = result.value();
+  // As `encase`, but of the polygon itself, whatever meets its sides.
+  Encaser run(curves, facet->polygon, options_);
+  run.separate_components();
+  if (!run.open_region_as_asked())
+    return FacetTrouble{
+        Outcome::Degenerate,
+        "a surface touches an edge or passes through a corner of a cell, or nearly"};
+  run.find_critical_regions();
+  run.collect_zones();
+  run.split_cells();
+  run.finish_cells();
+  run.decide_outcome();
+  Encasement e = run.take_result();
   decisions_ += e.statistics.decisions;
   if (e.outcome == Outcome::Undecided)
     return FacetTrouble{Outcome::Undecided, e.undecided.empty() ? "a facet was left undecided"

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <set>
 
+#include "3d/arc_direction.hpp"
 #include "3d/edge_lines.hpp"
 #include "3d/pair_critical_points.hpp"
 #include "3d/solid_region.hpp"
@@ -127,7 +128,8 @@ bool SurfaceEncaser::add_triple_points(RootIsolation<3> roots, const std::array<
   UnresolvedInSpace entry;
   entry.kind = Unresolved::Kind::Concurrency;
   entry.surfaces.assign(surfaces.begin(), surfaces.end());
-  report(roots.unresolved, entry, "three surfaces touch, nearly touch or have a curve in common");
+  report_boxes(roots.unresolved, entry,
+               "three surfaces touch, nearly touch or have a curve in common");
   for (int& token : roots.tokens)
     if (token >= 0) token += first;
   result_.triple_point_covers.push_back({surfaces, roots.root_box, std::move(roots.tokens)});
@@ -143,6 +145,11 @@ void SurfaceEncaser::isolate_critical_points() {
   for (int f = 0; f < n; ++f)
     for (int g = f + 1; g < n; ++g) {
       const Point<3> w = generic_direction(number++);
+      // Of surfaces with parallel gradients every point would be one.
+      const auto direction =
+          arc_direction(result_.surfaces[static_cast<std::size_t>(f)].function,
+                        result_.surfaces[static_cast<std::size_t>(g)].function, w);
+      if (!direction || direction->is_zero()) continue;
       auto found = pair_critical_points(surfaces_[static_cast<std::size_t>(f)],
                                         surfaces_[static_cast<std::size_t>(g)], w, box, sides_,
                                         limits("isolating critical points"), kernel_);
@@ -221,13 +228,19 @@ void SurfaceEncaser::encase_facets() {
   points_ = number_facet_points(surfaces_, partition_->planes(), encaser_->charts(), facets);
 }
 
-/// Whether a facet beside a certified leaf failed: its plane is not generic.
+/// Whether a facet of a certified leaf failed, and other planes could help: one on the region's
+/// boundary, or any where no leaf resists by itself.
 bool SurfaceEncaser::facets_fail() const {
+  const auto& leaves = partition_->leaves();
+  const auto certified = [](const SpacePartition::Leaf& leaf) {
+    return leaf.state == CellState::Certified;
+  };
+  const bool all_certified = std::all_of(leaves.begin(), leaves.end(), certified);
   return std::any_of(facets_.begin(), facets_.end(), [&](const EncasedFacet& encased) {
-    return encased.trouble &&
-           std::any_of(encased.facet.cells.begin(), encased.facet.cells.end(), [&](int cell) {
-             return cell >= 0 && partition_->leaves()[static_cast<std::size_t>(cell)].state ==
-                                     CellState::Certified;
+    const std::array<int, 2>& cells = encased.facet.cells;
+    return encased.trouble && (all_certified || cells[0] < 0 || cells[1] < 0) &&
+           std::any_of(cells.begin(), cells.end(), [&](int cell) {
+             return cell >= 0 && certified(leaves[static_cast<std::size_t>(cell)]);
            });
   });
 }

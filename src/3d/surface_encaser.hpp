@@ -41,10 +41,9 @@ class SurfaceEncaser {
   SubdivisionLimits limits(const char* stage);
   void separate_polynomials();
   void separate_expressions();
-  /// Adds an entry for every cluster of boxes, which are halved as far as sizes go unless a budget
-  /// ran out.
-  void report(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
-              const std::string& diagnosis);
+  void add_unresolved(UnresolvedInSpace entry);
+  void report_boxes(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
+                    const std::string& diagnosis);
   bool add_triple_points(RootIsolation<3> roots, const std::array<int, 3>& surfaces);
   void encase_facets();
   /// Reads all cells; false if some were ambiguous and have been split.
@@ -57,6 +56,7 @@ class SurfaceEncaser {
     std::string reason;
   };
   Diagnosis diagnose(int cell) const;
+  UnresolvedInSpace why_not_certified(int cell) const;
   void report_cells();
   void take_cells();
 

@@ -7,33 +7,45 @@
 
 namespace encase {
 
-void SurfaceEncaser::report(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
-                            const std::string& diagnosis) {
-  // Boxes that nearly touch are one place.
-  std::vector<Box<3>> grown = boxes;
-  for (Box<3>& box : grown) {
+namespace {
+
+/// Numbers of clusters: boxes that touch or nearly touch are one place.
+std::vector<int> clusters_of(std::vector<Box<3>> boxes) {
+  for (Box<3>& box : boxes) {
     const double margin = box.largest_width();
     for (int i = 0; i < 3; ++i) {
       box.lo[i] -= margin;
       box.hi[i] += margin;
     }
   }
-  const std::vector<int> component = box_components(grown);
-  std::vector<Box<3>> clusters;
+  return box_components(boxes);
+}
+
+}  // namespace
+
+void SurfaceEncaser::add_unresolved(UnresolvedInSpace entry) {
+  (entry.kind == Unresolved::Kind::Budget ? result_.undecided : result_.degenerate)
+      .push_back(std::move(entry));
+}
+
+/// The boxes were halved as far as sizes go, unless a budget ran out.
+void SurfaceEncaser::report_boxes(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
+                                  const std::string& diagnosis) {
+  const std::vector<int> cluster = clusters_of(boxes);
+  std::vector<Box<3>> hulls;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
-    const auto c = static_cast<std::size_t>(component[k]);
-    if (c == clusters.size())
-      clusters.push_back(boxes[k]);
+    const auto c = static_cast<std::size_t>(cluster[k]);
+    if (c == hulls.size())
+      hulls.push_back(boxes[k]);
     else
-      clusters[c] = hull(clusters[c], boxes[k]);
+      hulls[c] = hull(hulls[c], boxes[k]);
   }
   entry.has_box = true;
   if (is_stopped_) entry.kind = Unresolved::Kind::Budget;
   entry.reason = is_stopped_ ? budget_ + " before it was told whether " + diagnosis : diagnosis;
-  for (const Box<3>& box : clusters) {
+  for (const Box<3>& box : hulls) {
     entry.box = box;
-    (entry.kind == Unresolved::Kind::Budget ? result_.undecided : result_.degenerate)
-        .push_back(entry);
+    add_unresolved(entry);
   }
 }
 
@@ -73,49 +85,69 @@ SurfaceEncaser::Diagnosis SurfaceEncaser::diagnose(int index) const {
           "the common points of surfaces " + names(alive) + " are not told"};
 }
 
-/// Reports what resists; cells that resist for the same reason and touch are one place.
-void SurfaceEncaser::report_cells() {
-  const auto& leaves = partition_->leaves();
-  std::vector<std::pair<UnresolvedInSpace, std::vector<Box<3>>>> places;
-  const auto add = [&](UnresolvedInSpace entry, const Box<3>& box) {
-    auto same = std::find_if(places.begin(), places.end(), [&](const auto& place) {
-      return place.first.kind == entry.kind && place.first.surfaces == entry.surfaces &&
-             place.first.reason == entry.reason;
-    });
-    if (same == places.end()) same = places.insert(places.end(), {std::move(entry), {}});
-    same->second.push_back(box);
-  };
-  const double smallest =
-      2 * PartitionLimits().smallest * region_.polyhedron.bounding_box().largest_width();
-  for (std::size_t k = 0; k < leaves.size(); ++k) {
-    const Cell& cell = cells_[k];
-    SpaceCell& result = result_.cells[k];
-    if (result.state == CellState::Certified) continue;
-    UnresolvedInSpace entry;
-    if (cell.trouble) {
-      entry.kind = *cell.trouble == Outcome::Degenerate ? Unresolved::Kind::Contact
-                                                        : Unresolved::Kind::Budget;
-      entry.reason = cell.reason;
-      for (std::size_t s = 0; s < leaves[k].signs.size(); ++s)
-        if (leaves[k].signs[s] == Sign::Zero) entry.surfaces.push_back(static_cast<int>(s));
-    } else {
-      Diagnosis diagnosis = diagnose(static_cast<int>(k));
-      entry.surfaces = std::move(diagnosis.surfaces);
-      entry.reason = std::move(diagnosis.reason);
-      if (leaves[k].box.largest_width() <= smallest) entry.kind = diagnosis.kind;
-    }
-    if (entry.kind == Unresolved::Kind::Budget) {
-      if (!cell.trouble)
-        entry.reason = (budget_.empty() ? "the limit on cells was reached" : budget_) +
-                       " before it was told whether " + entry.reason;
-    } else {
-      result.state = CellState::Degenerate;
-    }
-    add(std::move(entry), leaves[k].box);
+UnresolvedInSpace SurfaceEncaser::why_not_certified(int index) const {
+  const auto k = static_cast<std::size_t>(index);
+  const SpacePartition::Leaf& leaf = partition_->leaves()[k];
+  const Cell& cell = cells_[k];
+  UnresolvedInSpace entry;
+  entry.has_box = true;
+  entry.box = leaf.box;
+  if (cell.trouble) {
+    entry.kind =
+        *cell.trouble == Outcome::Degenerate ? Unresolved::Kind::Contact : Unresolved::Kind::Budget;
+    entry.reason = cell.reason;
+    for (std::size_t s = 0; s < leaf.signs.size(); ++s)
+      if (leaf.signs[s] == Sign::Zero) entry.surfaces.push_back(static_cast<int>(s));
+    return entry;
   }
-  for (auto& [entry, boxes] : places) {
-    const std::string reason = entry.reason;
-    report(boxes, std::move(entry), reason);
+  Diagnosis diagnosis = diagnose(index);
+  const double size = region_.polyhedron.bounding_box().largest_width();
+  const bool at_cap = leaf.box.largest_width() <= 2 * PartitionLimits().smallest * size;
+  entry.surfaces = std::move(diagnosis.surfaces);
+  entry.kind = at_cap ? diagnosis.kind : Unresolved::Kind::Budget;
+  entry.reason = at_cap ? diagnosis.reason
+                        : (budget_.empty() ? "the limit on cells was reached" : budget_) +
+                              " before it was told whether " + diagnosis.reason;
+  return entry;
+}
+
+/// Reports what resists; cells that touch are one place. Of these, what is undecided tells the
+/// reason, else what has no certificates, else what has a facet that failed.
+void SurfaceEncaser::report_cells() {
+  std::vector<UnresolvedInSpace> entries;
+  std::vector<std::size_t> cell_of;
+  std::vector<Box<3>> boxes;
+  for (std::size_t k = 0; k < result_.cells.size(); ++k) {
+    if (result_.cells[k].state == CellState::Certified) continue;
+    entries.push_back(why_not_certified(static_cast<int>(k)));
+    cell_of.push_back(k);
+    boxes.push_back(entries.back().box);
+  }
+  const auto weight = [&](std::size_t i) {
+    return (entries[i].kind == Unresolved::Kind::Budget ? 2 : 0) +
+           (cells_[cell_of[i]].trouble ? 0 : 1);
+  };
+  const std::vector<int> cluster = clusters_of(boxes);
+  std::vector<std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const auto c = static_cast<std::size_t>(cluster[i]);
+    if (c == members.size()) members.emplace_back();
+    members[c].push_back(i);
+  }
+  for (const std::vector<std::size_t>& place : members) {
+    const std::size_t first =
+        *std::max_element(place.begin(), place.end(),
+                          [&](std::size_t i, std::size_t j) { return weight(i) < weight(j); });
+    UnresolvedInSpace entry = entries[first];
+    std::set<int> surfaces;
+    for (const std::size_t i : place) {
+      entry.box = hull(entry.box, boxes[i]);
+      surfaces.insert(entries[i].surfaces.begin(), entries[i].surfaces.end());
+      if (entry.kind != Unresolved::Kind::Budget)
+        result_.cells[cell_of[i]].state = CellState::Degenerate;
+    }
+    entry.surfaces.assign(surfaces.begin(), surfaces.end());
+    add_unresolved(std::move(entry));
   }
 }
 

@@ -215,7 +215,7 @@ void check_critical_points(SpaceClaims& claims) {
     const auto direction =
         arc_direction(e.surfaces[static_cast<std::size_t>(f)].function,
                       e.surfaces[static_cast<std::size_t>(g)].function, list.direction);
-    if (!claims.require(direction && !direction->is_zero(), "List ", k,
+    if (!claims.require(direction.has_value(), "List ", k,
                         " of critical points is of surfaces that have none."))
       continue;
     const FilteredFunction<3> along(*direction);

@@ -230,7 +230,8 @@ TEST(VerifySurfaces, ChangedFactsAreRefused) {
       {"facet's arrangement",
        [&](auto& e) {
          auto& a = facet_of(e).arrangement;
-         a.faces[0].signs[0] = -a.faces[0].signs[0];
+         Arrangement::Face& face = a.faces[a.outside == 0 ? 1 : 0];
+         face.signs[0] = -face.signs[0];
        }},
       {"facet's points",
        [&](auto& e) {
