@@ -93,7 +93,7 @@ std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet) {
                                                                 : e.undecided.front().reason};
   if (e.outcome == Outcome::Degenerate && !e.degenerate.empty())
     return FacetTrouble{Outcome::Degenerate, e.degenerate.front().reason};
-  if (!is_as_asked(e, facet->polygon, curves))
+  if (!is_as_asked(e, curves))
     return FacetTrouble{
         Outcome::Degenerate,
         "a surface touches an edge or passes through a corner of a cell, or nearly"};
