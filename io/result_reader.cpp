@@ -15,6 +15,7 @@
 #include "function_json.hpp"
 #include "json_node.hpp"
 #include "names.hpp"
+#include "surface_json.hpp"
 
 namespace encase {
 namespace {
@@ -348,9 +349,14 @@ Result<CapsResult> caps_from_json(const std::string& text, const std::string& fi
   return read_document(text, file_name, read_caps);
 }
 
+Result<StoredSurfaces> surfaces_from_json(const std::string& text, const std::string& file_name) {
+  return read_document(text, file_name, read_surfaces);
+}
+
 Result<AnyResult> any_result_from_json(const std::string& text, const std::string& file_name) {
   return read_document(text, file_name, [](const JsonNode& root) -> AnyResult {
     if (root.member("command").text() == "caps") return read_caps(root);
+    if (root.member("command").text() == "surfaces") return read_surfaces(root);
     return read_stored(root);
   });
 }

@@ -2,23 +2,20 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "encase/cover.hpp"
 #include "encase/result_json.hpp"
-#include "encase/surface_result_json.hpp"
 #include "io/function_json.hpp"
 #include "io/json_node.hpp"
 #include "io/names.hpp"
+#include "io/surface_json.hpp"
 #include "io/surface_names.hpp"
 
 namespace encase {
 namespace {
-
-using Json = nlohmann::json;
 
 Polyhedron read_region(const JsonNode& node) {
   const JsonNode sides = node.member("halfspaces");
@@ -264,15 +261,13 @@ SpaceStatistics read_statistics(const JsonNode& node) {
   return s;
 }
 
-SurfaceEncasement read_surfaces(const JsonNode& root) {
-  if (root.member("format").text() != "encase-result")
-    root.member("format").fail("this is not a result of encase");
-  if (root.member("version").integer(0, std::numeric_limits<int>::max()) != kResultVersion)
-    root.member("version").fail("this version of encase reads version " +
-                                std::to_string(kResultVersion) + " only");
+}  // namespace
+
+StoredSurfaces read_surfaces(const JsonNode& root) {
   if (root.member("command").text() != "surfaces")
     root.member("command").fail("expected a result of 'surfaces'");
-  SurfaceEncasement e;
+  StoredSurfaces stored;
+  SurfaceEncasement& e = stored.encasement;
   e.outcome = root.member("status").one_of(kOutcomes);
   e.input = read_functions<3>(root.member("input").member("surfaces"));
   e.surfaces = root.member("surfaces").map([&](const JsonNode& surface) {
@@ -314,21 +309,8 @@ SurfaceEncasement read_surfaces(const JsonNode& root) {
   e.degenerate = read_unresolved(root.member("degenerate"), e);
   e.undecided = read_unresolved(root.member("undecided"), e);
   e.statistics = read_statistics(root.member("statistics"));
-  return e;
-}
-
-}  // namespace
-
-Result<SurfaceEncasement> surfaces_from_json(const std::string& text,
-                                             const std::string& file_name) {
-  try {
-    const Json json = Json::parse(text);
-    return read_surfaces(JsonNode(json));
-  } catch (const Malformed& malformed) {
-    return Error{Error::Code::BadInput, file_name + ": " + malformed.what};
-  } catch (const Json::exception& exception) {
-    return Error{Error::Code::BadInput, file_name + ": " + exception.what()};
-  }
+  if (root.has("arrangement")) stored.arrangement = read_arrangement(root.member("arrangement"), e);
+  return stored;
 }
 
 }  // namespace encase

@@ -8,6 +8,7 @@
 #include "io/function_json.hpp"
 #include "io/json_writer.hpp"
 #include "io/names.hpp"
+#include "io/surface_json.hpp"
 #include "io/surface_names.hpp"
 
 namespace encase {
@@ -207,7 +208,7 @@ void put_statistics(JsonWriter& w, const SpaceStatistics& s) {
 
 }  // namespace
 
-std::string to_json(const SurfaceEncasement& e) {
+std::string to_json(const SurfaceEncasement& e, const SpaceArrangement* arrangement) {
   JsonWriter w;
   w.raw("{\n");
   w.field("format", "encase-result");
@@ -250,6 +251,7 @@ std::string to_json(const SurfaceEncasement& e) {
   w.lines(e.history, [&](const Split& split) {
     w.put(std::array<int, 3>{split.line, split.negative, split.positive});
   });
+  if (arrangement) top("arrangement"), put_arrangement(w, *arrangement);
   top("degenerate"), put_unresolved(w, e.degenerate);
   top("undecided"), put_unresolved(w, e.undecided);
   top("statistics"), put_statistics(w, e.statistics);

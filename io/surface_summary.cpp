@@ -9,7 +9,7 @@
 
 namespace encase {
 
-std::string summary_json(const SurfaceEncasement& e) {
+std::string summary_json(const SurfaceEncasement& e, const SpaceArrangement* arrangement) {
   const auto curves = intersection_curves(e);
   const auto closed = std::count_if(curves.begin(), curves.end(),
                                     [](const IntersectionCurve& c) { return c.closed; });
@@ -31,6 +31,7 @@ std::string summary_json(const SurfaceEncasement& e) {
   w.field("intersection_curves", static_cast<int>(curves.size()));
   w.field("closed_curves", static_cast<std::int64_t>(closed));
   w.field("cells", static_cast<int>(e.cells.size()));
+  if (arrangement) w.field("regions", static_cast<int>(arrangement->regions.size()));
   per_surface("euler", &SurfaceTopology::euler);
   per_surface("components", &SurfaceTopology::components);
   w.field("seconds", e.seconds);

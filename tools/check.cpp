@@ -28,14 +28,21 @@ void add(Verdict* verdict, const Verification& more) {
   objections.insert(objections.end(), more.objections.begin(), more.objections.end());
 }
 
-Verdict judge(const StoredResult& stored, const VerifyOptions& options) {
-  const auto& [encasement, arrangement, source] = stored;
+/// What an encasement says of itself.
+template <class AnyEncasement>
+Verdict verdict_of(const AnyEncasement& encasement) {
   Verdict verdict;
   verdict.code = exit_code(encasement.outcome);
   if (encasement.outcome == Outcome::Degenerate)
     verdict.text = fmt::format("; degenerate: {}", encasement.degenerate.size());
   if (encasement.outcome == Outcome::Undecided)
     verdict.text = fmt::format("; undecided: {}", encasement.undecided.size());
+  return verdict;
+}
+
+Verdict judge(const StoredResult& stored, const VerifyOptions& options) {
+  const auto& [encasement, arrangement, source] = stored;
+  Verdict verdict = verdict_of(encasement);
   add(&verdict,
       arrangement ? verify(encasement, *arrangement, options) : verify(encasement, options));
   if (source) add(&verdict, verify_source(*source, encasement, options));
@@ -57,6 +64,14 @@ Verdict judge(const CapsResult& result, const VerifyOptions& options) {
       break;
   }
   add(&verdict, verify(result, options));
+  return verdict;
+}
+
+Verdict judge(const StoredSurfaces& stored, const VerifyOptions& options) {
+  const auto& [encasement, arrangement] = stored;
+  Verdict verdict = verdict_of(encasement);
+  verdict.verification =
+      arrangement ? verify(encasement, *arrangement, options) : verify(encasement, options);
   return verdict;
 }
 

@@ -83,11 +83,20 @@ double tolerance(const SurfacesRequest& r, const SurfaceEncasement& encasement) 
                          : kPart * encasement.region_used.bounding_box().largest_width();
 }
 
+/// The arrangement of space, where the encasement is certified.
+Result<std::optional<SpaceArrangement>> arranged(const Result<SurfaceEncasement>& encasement) {
+  if (!encasement || encasement.value().outcome != Outcome::Certified)
+    return std::optional<SpaceArrangement>();
+  auto arrangement = arrange(encasement.value());
+  if (!arrangement) return arrangement.error();
+  return std::optional<SpaceArrangement>(std::move(arrangement).value());
+}
+
 /// The files asked for, in the order of their options. `notes` is what the report says of them.
 Status write_files(const SurfacesRequest& r, const SurfaceEncasement& encasement,
-                   [[maybe_unused]] std::string* notes) {
+                   const SpaceArrangement* arrangement, [[maybe_unused]] std::string* notes) {
   if (!r.json.empty())
-    if (const Status status = write_output(r.json, to_json(encasement))) return status;
+    if (const Status status = write_output(r.json, to_json(encasement, arrangement))) return status;
   if (r.mesh.empty() && r.vtk_directory.empty()) return {};
   SurfaceMeshOptions meshing;
   meshing.tolerance = tolerance(r, encasement);
@@ -112,11 +121,11 @@ Status write_files(const SurfacesRequest& r, const SurfaceEncasement& encasement
 }
 
 Status write_report(const SurfacesRequest& r, const SurfaceEncasement& encasement,
-                    const std::string& notes) {
+                    const SpaceArrangement* arrangement, const std::string& notes) {
   std::string text = report(encasement) + notes;
   if (r.verbose) text += statistics_report(encasement);
   if (r.summary) {
-    if (const Status status = print(summary_json(encasement))) return status;
+    if (const Status status = print(summary_json(encasement, arrangement))) return status;
     if (r.verbose) std::fputs(text.c_str(), stderr);
     return {};
   }
@@ -138,12 +147,15 @@ ExitCode run_surfaces(SurfacesRequest request) {
   std::optional<Progress> progress(std::in_place, !request.quiet && !on_terminal);
   request.options.progress = progress->callback();
   const auto encasement = encase(input.value().surfaces, input.value().region, request.options);
+  const auto arrangement = arranged(encasement);
+  if (!arrangement) return fail(arrangement.error());
+  const SpaceArrangement* known = arrangement.value() ? &*arrangement.value() : nullptr;
   progress->begin("writing the result");
   std::string notes;
-  Status status =
-      encasement ? write_files(request, encasement.value(), &notes) : Status(encasement.error());
+  Status status = encasement ? write_files(request, encasement.value(), known, &notes)
+                             : Status(encasement.error());
   progress.reset();
-  if (!status) status = write_report(request, encasement.value(), notes);
+  if (!status) status = write_report(request, encasement.value(), known, notes);
   return status ? fail(*status) : exit_code(encasement.value().outcome);
 }
 

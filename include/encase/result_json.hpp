@@ -9,6 +9,7 @@
 #include "encase/caps.hpp"
 #include "encase/encasement.hpp"
 #include "encase/slice.hpp"
+#include "encase/surface_result_json.hpp"
 
 namespace encase {
 
@@ -36,7 +37,7 @@ struct StoredResult {
 Result<StoredResult> result_from_json(const std::string& text, const std::string& file_name);
 
 /// The same, whichever command wrote it.
-using AnyResult = std::variant<StoredResult, CapsResult>;
+using AnyResult = std::variant<StoredResult, CapsResult, StoredSurfaces>;
 Result<AnyResult> any_result_from_json(const std::string& text, const std::string& file_name);
 
 /// The same, of the encasement alone.

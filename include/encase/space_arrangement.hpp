@@ -57,12 +57,18 @@ struct SpaceArrangement {
   /// For every facet and face of its arrangement (one, if no surface meets it) the region in which
   /// it lies; -1 for the outside face.
   std::vector<std::vector<int>> region_of_facet;
+  bool operator==(const SpaceArrangement&) const = default;
 };
 
 /// The arrangement of an encasement's surfaces. Degenerate or Undecided if the encasement is;
 /// Internal if its parts do not fit together, as in one that `verify` objects to. Cost: about that
 /// of reading the encasement.
 Result<SpaceArrangement> arrange(const SurfaceEncasement& encasement);
+
+/// Re-proves the encasement, and that the arrangement is that of it, entry by entry, as `arrange`
+/// derives it from the facts that were proved.
+Verification verify(const SurfaceEncasement& encasement, const SpaceArrangement& arrangement,
+                    const VerifyOptions& options = {});
 
 /// Tells in which region points lie. Refers to the encasement and the arrangement, which must
 /// outlive it.

@@ -316,4 +316,29 @@ Result<SpaceArrangement> arrange(const SurfaceEncasement& encasement) {
   return SpaceGluer(encasement).run();
 }
 
+Verification verify(const SurfaceEncasement& encasement, const SpaceArrangement& arrangement,
+                    const VerifyOptions& options) {
+  Verification result = verify(encasement, options);
+  // What does not hold together is not read.
+  if (!result.ok()) return result;
+  const auto expected = arrange(encasement);
+  const auto require = [&](bool holds, const char* objection) {
+    if (holds)
+      ++result.claims;
+    else
+      result.objections.emplace_back(objection);
+  };
+  require(expected.ok(), "The encasement has no arrangement of space.");
+  if (!expected) return result;
+  const SpaceArrangement& a = expected.value();
+  require(a.components == arrangement.components,
+          "The components of the surfaces are not those of the encasement.");
+  require(a.faces == arrangement.faces,
+          "The faces of the surfaces are not those of the encasement.");
+  require(a.regions == arrangement.regions, "The regions are not those of the encasement.");
+  require(a.region_of_facet == arrangement.region_of_facet,
+          "The facets do not lie in the regions in which they lie.");
+  return result;
+}
+
 }  // namespace encase
