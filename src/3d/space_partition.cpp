@@ -266,7 +266,7 @@ bool SpacePartition::State::find_pairs(Item& item, bool thorough) {
       }
       if (!certificate && thorough) {
         ++tests;
-        certificate = find_local(f, g, box, kernel);
+        certificate = find_local(f, g, box, std::max(item.bits[a], item.bits[b]), kernel);
       }
       if (!certificate) {
         all = false;
