@@ -23,12 +23,12 @@ std::optional<PairCertificate> find_apart(const Bernstein<3>& f, const Bernstein
 }
 
 std::optional<PairCertificate> find_local(const FilteredFunction<3>& f,
-                                          const FilteredFunction<3>& g, const Box<3>& box,
+                                          const FilteredFunction<3>& g, const Box<3>& box, int bits,
                                           Kernel& kernel) {
   thread_local NetColumns<5> columns;
   const BoxChart chart = chart_of(box);
   double before = HUGE_VAL;
-  for (int bits = kernel.start_bits; bits > 0; bits = kernel.next(bits)) {
+  for (; bits > 0; bits = kernel.next(bits)) {
     if (!pair_columns(f, g, box, bits, kernel, &columns)) return std::nullopt;
     const auto weights = separate<5>(columns.pointers(), columns.count());
     if (!weights) return std::nullopt;

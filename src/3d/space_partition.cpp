@@ -12,6 +12,7 @@
 #include "3d/cut_net.hpp"
 #include "3d/graph_certificate.hpp"
 #include "3d/pair_certificate.hpp"
+#include "3d/region_sides.hpp"
 #include "common/interval.hpp"
 #include "common/subdivision.hpp"
 
@@ -33,34 +34,6 @@ struct Item {
   int& pair_of(std::size_t a, std::size_t b) { return pair[a * size() + b]; }
 };
 
-enum class Side { Inside, Across, Outside };
-
-/// Where a box lies to a half space: in it, or with no interior point in it.
-Side side_of(const Plane& plane, const Box<3>& box) {
-  const auto at = [&](bool farthest, auto number) {
-    using Number = decltype(number);
-    const auto exact = plane.exact();
-    Number value;
-    if constexpr (std::is_same_v<Number, Rational>)
-      value = exact[3];
-    else
-      value = Interval::enclose(exact[3]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const bool high = (sgn(exact[i]) > 0) == farthest;
-      const double x = high ? box.hi[i] : box.lo[i];
-      if constexpr (std::is_same_v<Number, Rational>)
-        value += exact[i] * Rational(x);
-      else
-        value = value + Interval::enclose(exact[i]) * Interval(x);
-    }
-    return value;
-  };
-  const Interval highest = at(true, Interval()), lowest = at(false, Interval());
-  if (highest.lo > 0 && lowest.hi < 0) return Side::Across;
-  if (at(true, Rational()) <= 0) return Side::Inside;
-  return at(false, Rational()) >= 0 ? Side::Outside : Side::Across;
-}
-
 /// A number in [-1, 1) that depends on two doubles only.
 double scatter(double a, double b, std::uint64_t salt) {
   std::uint64_t h = std::bit_cast<std::uint64_t>(a) * 0x9e3779b97f4a7c15u + salt;
@@ -74,11 +47,12 @@ double scatter(double a, double b, std::uint64_t salt) {
 
 struct SpacePartition::State {
   State(const SpaceScene& s, const PartitionLimits& l, Kernel& k)
-      : scene(s), limits(l), kernel(k), root(s.region.bounding_box()) {}
+      : scene(s), limits(l), kernel(k), region_sides(s.region), root(s.region.bounding_box()) {}
 
   const SpaceScene scene;
   PartitionLimits limits;
   Kernel& kernel;
+  const RegionSides region_sides;
   Box<3> root;
   std::vector<Leaf> leaves;
   std::vector<int> parent;  ///< of every leaf: the split, or -1
@@ -120,9 +94,6 @@ struct SpacePartition::State {
   bool corners_clear(const Item& item, int axis, double at, bool strictly) const;
   std::optional<double> choose_cut(const Item& item, int axis) const;
   std::optional<double> choose_cut(const Item& item, const CutHint& hint) const;
-  bool has_interior(const Box<3>& box, const std::vector<int>& sides) const;
-  std::vector<int> sides_across(const Box<3>& box, const std::vector<int>& sides,
-                                bool* empty) const;
   bool halve(Item& item, std::vector<Item>* parts);
   void cut_at(Item& item, int axis, double at, std::vector<Item>* parts);
   int plane_of(int axis, double at);
@@ -173,10 +144,8 @@ Item SpacePartition::State::item_of(int index) {
     item.pair_of(place(surfaces[0]), place(surfaces[1])) = p;
   }
   for (std::size_t a = 0; a < item.size(); ++a) expand(item, a);
-  std::vector<int> all;
-  for (std::size_t s = 0; s < scene.region.sides.size(); ++s) all.push_back(static_cast<int>(s));
   bool empty;
-  item.sides = sides_across(leaf.box, all, &empty);
+  item.sides = region_sides.across(leaf.box, region_sides.all(), &empty);
   return item;
 }
 
@@ -297,7 +266,7 @@ bool SpacePartition::State::find_pairs(Item& item, bool thorough) {
       }
       if (!certificate && thorough) {
         ++tests;
-        certificate = find_local(f, g, box, kernel);
+        certificate = find_local(f, g, box, std::max(item.bits[a], item.bits[b]), kernel);
       }
       if (!certificate) {
         all = false;
@@ -440,50 +409,6 @@ std::optional<double> SpacePartition::State::choose_cut(const Item& item,
   return std::nullopt;
 }
 
-/// The sides that cut the box; `empty`: the box has no interior point in the region.
-std::vector<int> SpacePartition::State::sides_across(const Box<3>& box,
-                                                     const std::vector<int>& sides,
-                                                     bool* empty) const {
-  std::vector<int> across;
-  *empty = false;
-  for (const int s : sides) {
-    const Side side = side_of(planes[static_cast<std::size_t>(s)], box);
-    *empty = *empty || side == Side::Outside;
-    if (side == Side::Across) across.push_back(s);
-  }
-  if (!*empty) *empty = !has_interior(box, across);
-  return across;
-}
-
-bool SpacePartition::State::has_interior(const Box<3>& box, const std::vector<int>& sides) const {
-  // One half space that cuts a box has a part of its interior.
-  if (sides.size() < 2 || sides.size() + 6 > kMaxSides) return true;
-  const Point<3> center = box.center();
-  Box<3> middle;
-  middle.lo = middle.hi = center;
-  if (std::all_of(sides.begin(), sides.end(), [&](int s) {
-        Interval value = planes[static_cast<std::size_t>(s)].offset;
-        const Plane& plane = planes[static_cast<std::size_t>(s)];
-        double size = std::fabs(plane.offset);
-        for (int i = 0; i < 3; ++i) {
-          value = value + Interval(plane.normal[i]) * Interval(center[i]);
-          size += std::fabs(plane.normal[i] * center[i]);
-        }
-        return value.hi < -0x1p-48 * size;
-      }))
-    return true;
-  std::vector<HalfSpace> all;
-  for (const int s : sides) all.push_back(scene.region.sides[static_cast<std::size_t>(s)]);
-  for (int i = 0; i < 3; ++i) {
-    HalfSpace below{0, 0, 0, Rational(box.lo[i])}, above{0, 0, 0, -Rational(box.hi[i])};
-    below[static_cast<std::size_t>(i)] = -1;
-    above[static_cast<std::size_t>(i)] = 1;
-    all.push_back(below);
-    all.push_back(above);
-  }
-  return make_polyhedron(std::move(all)).ok();
-}
-
 int SpacePartition::State::plane_of(int axis, double at) {
   const auto [entry, is_new] = plane_at.try_emplace({axis, at}, static_cast<int>(planes.size()));
   if (is_new) {
@@ -531,8 +456,8 @@ void SpacePartition::State::cut_at(Item& item, int axis, double at, std::vector<
   upper.pair = item.pair;
   upper.nets.resize(item.size());
   bool no_lower = false, no_upper = false;
-  upper.sides = sides_across(above, item.sides, &no_upper);
-  item.sides = sides_across(below, item.sides, &no_lower);
+  upper.sides = region_sides.across(above, item.sides, &no_upper);
+  item.sides = region_sides.across(below, item.sides, &no_lower);
   for (std::size_t a = 0; a < item.size(); ++a) {
     if (pool.size() < 2) pool.resize(2);
     Bernstein<3> lower_net = std::move(pool.back());
