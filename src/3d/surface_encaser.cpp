@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <set>
 
-#include "3d/arc_direction.hpp"
 #include "3d/edge_lines.hpp"
 #include "3d/pair_critical_points.hpp"
 #include "3d/solid_region.hpp"
@@ -145,11 +144,6 @@ void SurfaceEncaser::isolate_critical_points() {
   for (int f = 0; f < n; ++f)
     for (int g = f + 1; g < n; ++g) {
       const Point<3> w = generic_direction(number++);
-      // Of surfaces with parallel gradients every point would be one.
-      const auto direction =
-          arc_direction(result_.surfaces[static_cast<std::size_t>(f)].function,
-                        result_.surfaces[static_cast<std::size_t>(g)].function, w);
-      if (!direction || direction->is_zero()) continue;
       auto found = pair_critical_points(surfaces_[static_cast<std::size_t>(f)],
                                         surfaces_[static_cast<std::size_t>(g)], w, box, sides_,
                                         limits("isolating critical points"), kernel_);
