@@ -193,6 +193,14 @@ void Encaser::separate_components() {
   for (const Curve& curve : result_.curves) polynomials_.emplace_back(curve.function);
 }
 
+void Encaser::take_curves(const std::vector<const FilteredFunction<2>*>& prepared) {
+  for (std::size_t k = 0; k < prepared.size(); ++k) {
+    const NamedCurve& curve = result_.input[k];
+    result_.curves.push_back({curve.name, curve.function, {static_cast<int>(k)}});
+    polynomials_.push_back(*prepared[k]);
+  }
+}
+
 void Encaser::separate_polynomials() {
   std::vector<Polynomial<2>> inputs;
   std::vector<int> input_of;

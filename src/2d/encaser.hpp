@@ -30,8 +30,11 @@ class Encaser {
   Encaser(const Encasement& earlier, const std::vector<NamedCurve>& more,
           const EncaseOptions& options);
 
-  Status check_input() const;    // 1. sanity
-  void separate_components();    // 1. shared and repeated components
+  Status check_input() const;  // 1. sanity
+  void separate_components();  // 1. shared and repeated components
+  /// In place of these two: the input, prepared. What its curves have in common is not looked for,
+  /// and is a place that resists.
+  void take_curves(const std::vector<const FilteredFunction<2>*>& prepared);
   bool open_region();            // 2. a generic polygon
   bool open_region_as_asked();   //    or only the polygon asked, if it is generic
   void isolate_crossings();      // 2. crossings first

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -12,12 +13,23 @@ namespace encase {
 
 namespace {
 
+/// An end of an interval: a double, or a rational.
+struct Bound {
+  double value = 0;
+  std::optional<Rational> exact;
+
+  Rational rational() const { return exact ? *exact : Rational(value); }
+  bool operator<(const Bound& other) const {
+    return exact || other.exact ? rational() < other.rational() : value < other.value;
+  }
+};
+
 /// A surface's crossing with the common line of two planes, as one facet sees it.
 struct Sighting {
   std::array<int, 2> planes{};
   int surface = -1;
   /// Of the line's coordinate: the interval of the root, and whether the sign grows with it.
-  Rational lo, hi;
+  Bound lo, hi;
   bool ascending = false;
   int facet = -1;
   int vertex = -1;
@@ -30,6 +42,11 @@ struct Coordinate {
   int axis = 0;
   /// coordinate = offset + slope * the other
   Rational offset = 0, slope = 1;
+
+  Bound of(double other) const {
+    if (slope == 1 && offset == 0) return {other, std::nullopt};
+    return {0, Rational(offset + slope * Rational(other))};
+  }
 };
 
 int unit_axis(const Plane& plane) {
@@ -89,10 +106,8 @@ class PointNumbering {
     s.facet = index;
     s.vertex = v;
     s.surface = facet.surfaces[static_cast<std::size_t>(crossing.curve)];
-    s.planes = std::minmax({facet.plane, facet.side_planes[side]}) ==
-                       std::pair(facet.plane, facet.side_planes[side])
-                   ? std::array{facet.plane, facet.side_planes[side]}
-                   : std::array{facet.side_planes[side], facet.plane};
+    s.planes = {std::min(facet.plane, facet.side_planes[side]),
+                std::max(facet.plane, facet.side_planes[side])};
     // The face behind the half-edge that goes on along the boundary, counter-clockwise.
     const int face = a.half_edges[static_cast<std::size_t>(vertex.half_edge)].face;
     const Sign ahead =
@@ -100,8 +115,8 @@ class PointNumbering {
     s.ascending = (ahead == Sign::Positive) == parameter_grows(line, false);
     const int seen = charts_.of(facet.plane).axes()[static_cast<std::size_t>(parameter_axis(line))];
     const Coordinate coordinate = coordinate_of(s.planes, seen);
-    s.lo = coordinate.offset + coordinate.slope * Rational(crossing.lo);
-    s.hi = coordinate.offset + coordinate.slope * Rational(crossing.hi);
+    s.lo = coordinate.of(crossing.lo);
+    s.hi = coordinate.of(crossing.hi);
     if (coordinate.slope < 0) {
       std::swap(s.lo, s.hi);
       s.ascending = !s.ascending;
@@ -139,8 +154,8 @@ class PointNumbering {
     // The roots of those before lie in intervals that begin no later.
     for (std::size_t j = k; j-- > 0 && sightings_[j].line() == s.line();) {
       const Sighting& before = sightings_[j];
-      if (before.facet == s.facet || before.hi <= s.lo) continue;
-      if (s.hi > before.hi && s.ascending != before.ascending) continue;
+      if (before.facet == s.facet || !(s.lo < before.hi)) continue;
+      if (before.hi < s.hi && s.ascending != before.ascending) continue;
       point = facets_[static_cast<std::size_t>(before.facet)]
                   ->points[static_cast<std::size_t>(before.vertex)];
       return;
@@ -165,12 +180,13 @@ class PointNumbering {
       return chart.lift(at);
     };
     const FilteredFunction<3>& f = surfaces_[static_cast<std::size_t>(s.surface)];
-    double lo = crossing.lo, hi = crossing.hi;
+    double lo = crossing.lo, hi = crossing.hi, t = lo + 0.5 * (hi - lo);
     double at_lo = f.approximate(point(lo)), at_hi = f.approximate(point(hi));
     constexpr int kSteps = 40;
     for (int step = 0; step < kSteps && at_lo * at_hi < 0; ++step) {
-      const double t = lo + (hi - lo) * (at_lo / (at_lo - at_hi));
-      if (!(lo < t && t < hi)) break;
+      const double next = lo + (hi - lo) * (at_lo / (at_lo - at_hi));
+      if (!(lo < next && next < hi) || std::fabs(next - t) < 0x1p-50 * std::fabs(t)) break;
+      t = next;
       const double value = f.approximate(point(t));
       // An end that stays counts for less and less.
       if (value * at_lo > 0) {
@@ -183,7 +199,7 @@ class PointNumbering {
         at_lo *= 0.5;
       }
     }
-    return point(lo + 0.5 * (hi - lo));
+    return point(t);
   }
 
   const std::vector<FilteredFunction<3>>& surfaces_;

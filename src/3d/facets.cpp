@@ -10,18 +10,6 @@
 
 namespace encase {
 
-namespace {
-
-/// Whether the encasement's curves are those given.
-bool is_as_asked(const Encasement& e, const std::vector<NamedCurve>& curves) {
-  bool same = e.curves.size() == curves.size();
-  for (std::size_t k = 0; same && k < curves.size(); ++k)
-    same = e.curves[k].function == curves[k].function;
-  return same;
-}
-
-}  // namespace
-
 const FacetEncaser::OnPlane& FacetEncaser::restricted(int plane, int surface) {
   const auto [entry, is_new] = restricted_.try_emplace({plane, surface});
   OnPlane& result = entry->second;
@@ -35,6 +23,8 @@ const FacetEncaser::OnPlane& FacetEncaser::restricted(int plane, int surface) {
     result.constant = Sign::Zero;
   else if (is_constant)
     result.constant = FilteredFunction<2>(f).sign_at({0, 0}, kernel_);
+  else
+    result.filtered.emplace(f);
   return result;
 }
 
@@ -70,13 +60,16 @@ EncasedFacet FacetEncaser::encase(FacetPlace place, const std::vector<int>& surf
 
 std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet) {
   std::vector<NamedCurve> curves;
-  for (const int s : facet->surfaces)
-    curves.push_back(
-        {surfaces_[static_cast<std::size_t>(s)].name, restricted(facet->plane, s).function});
+  std::vector<const FilteredFunction<2>*> prepared;
+  for (const int s : facet->surfaces) {
+    const OnPlane& on_plane = restricted(facet->plane, s);
+    curves.push_back({surfaces_[static_cast<std::size_t>(s)].name, on_plane.function});
+    prepared.push_back(&*on_plane.filtered);
+  }
   ++encased_;
   // As `encase`, but of the polygon itself, whatever meets its sides.
   Encaser run(curves, facet->polygon, options_);
-  run.separate_components();
+  run.take_curves(prepared);
   if (!run.open_region_as_asked())
     return FacetTrouble{
         Outcome::Degenerate,
@@ -93,10 +86,6 @@ std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet) {
                                                                 : e.undecided.front().reason};
   if (e.outcome == Outcome::Degenerate && !e.degenerate.empty())
     return FacetTrouble{Outcome::Degenerate, e.degenerate.front().reason};
-  if (!is_as_asked(e, curves))
-    return FacetTrouble{
-        Outcome::Degenerate,
-        "a surface touches an edge or passes through a corner of a cell, or nearly"};
   ArrangeOptions without_points;
   without_points.boundary_points = false;
   auto arrangement = arrange(e, without_points);

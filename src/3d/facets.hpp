@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "3d/facet_places.hpp"
+#include "common/filtered_function.hpp"
 #include "common/kernel.hpp"
 #include "encase/surface_encasement.hpp"
 
@@ -51,6 +52,7 @@ class FacetEncaser {
  private:
   struct OnPlane {
     Function<2> function;
+    std::optional<FilteredFunction<2>> filtered;  ///< unless it is constant
     /// Of a function that is constant on the plane; Zero: zero, or not told.
     std::optional<Sign> constant;
   };

@@ -10,7 +10,9 @@ namespace encase {
 
 std::optional<PairCertificate> find_apart(const Bernstein<3>& f, const Bernstein<3>& g,
                                           const Box<3>& box, double scale_f, double scale_g) {
-  const auto weights = separate<2>({f.b.data(), g.b.data()}, static_cast<int>(f.b.size()));
+  const auto weights = separate<2>({f.b.data(), g.b.data()}, static_cast<int>(f.b.size()),
+                                   {1 / std::max(largest_coefficient(f), 0x1p-1000),
+                                    1 / std::max(largest_coefficient(g), 0x1p-1000)});
   if (!weights) return std::nullopt;
   PairCertificate c;
   c.kind = PairCertificate::Kind::Apart;
@@ -23,14 +25,19 @@ std::optional<PairCertificate> find_apart(const Bernstein<3>& f, const Bernstein
 }
 
 std::optional<PairCertificate> find_local(const FilteredFunction<3>& f,
-                                          const FilteredFunction<3>& g, const Box<3>& box,
+                                          const FilteredFunction<3>& g, const Box<3>& box, int bits,
                                           Kernel& kernel) {
   thread_local NetColumns<5> columns;
   const BoxChart chart = chart_of(box);
   double before = HUGE_VAL;
-  for (int bits = kernel.start_bits; bits > 0; bits = kernel.next(bits)) {
+  for (; bits > 0; bits = kernel.next(bits)) {
     if (!pair_columns(f, g, box, bits, kernel, &columns)) return std::nullopt;
-    const auto weights = separate<5>(columns.pointers(), columns.count());
+    const double along =
+        std::max({columns.largest[0], columns.largest[1], columns.largest[2], 0x1p-1000});
+    const std::array<double, 5> scale{1 / along, 1 / along, 1 / along,
+                                      1 / std::max(columns.largest[3], 0x1p-1000),
+                                      1 / std::max(columns.largest[4], 0x1p-1000)};
+    const auto weights = separate<5>(columns.pointers(), columns.count(), scale);
     if (!weights) return std::nullopt;
     PairCertificate c;
     c.kind = PairCertificate::Kind::Local;

@@ -12,10 +12,11 @@ namespace encase {
 std::optional<PairCertificate> find_apart(const Bernstein<3>& f, const Bernstein<3>& g,
                                           const Box<3>& box, double scale_f, double scale_g);
 
-/// Searches for a direction along which the curve of two surfaces grows everywhere in a box.
+/// Searches for a direction along which the curve of two surfaces grows everywhere in a box, with
+/// arithmetic of `bits` or, where rounding errors hide the proof, more.
 /// Cost: of two polynomials of degree d about d^6 products.
 std::optional<PairCertificate> find_local(const FilteredFunction<3>& f,
-                                          const FilteredFunction<3>& g, const Box<3>& box,
+                                          const FilteredFunction<3>& g, const Box<3>& box, int bits,
                                           Kernel& kernel);
 
 }  // namespace encase

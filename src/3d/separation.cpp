@@ -22,31 +22,37 @@ double dot(const std::array<double, M>& a, const std::array<double, M>& b) {
 template <int M>
 class Projections {
  public:
-  Projections(const VectorList<M>& components, int count)
-      : components_(components), count_(count), values_(buffer()) {
+  Projections(const VectorList<M>& components, int count, const std::array<double, M>& scale)
+      : components_(components), count_(count), scale_(scale), values_(buffer()) {
     values_.resize(static_cast<std::size_t>(count));
   }
 
   std::array<double, M> vector(int k) const {
     std::array<double, M> v;
-    for (int i = 0; i < M; ++i) v[i] = components_[i][k];
+    for (int i = 0; i < M; ++i) v[i] = scale_[i] * components_[i][k];
     return v;
+  }
+  /// The weights of the unscaled vectors.
+  std::array<double, M> scaled(std::array<double, M> w) const {
+    for (int i = 0; i < M; ++i) w[i] *= scale_[i];
+    return w;
   }
   std::array<double, M> mean() const {
     std::array<double, M> v;
     for (int i = 0; i < M; ++i) {
       double sum = 0;
       for (int k = 0; k < count_; ++k) sum += components_[i][k];
-      v[i] = sum / count_;
+      v[i] = scale_[i] * sum / count_;
     }
     return v;
   }
   /// The vector for which w . v is least, and that value.
   std::pair<int, double> least(const std::array<double, M>& w) {
+    const std::array<double, M> weights = scaled(w);
     double* values = values_.data();
     for (int k = 0; k < count_; ++k) {
-      double sum = w[0] * components_[0][k];
-      for (int i = 1; i < M; ++i) sum += w[i] * components_[i][k];
+      double sum = weights[0] * components_[0][k];
+      for (int i = 1; i < M; ++i) sum += weights[i] * components_[i][k];
       values[k] = sum;
     }
     // (Four independent chains of comparisons; then where the least one is.)
@@ -67,6 +73,7 @@ class Projections {
   }
   const VectorList<M>& components_;
   int count_;
+  const std::array<double, M>& scale_;
   std::vector<double>& values_;
 };
 
@@ -159,8 +166,9 @@ struct Corral {
 }  // namespace
 
 template <int M>
-std::optional<std::array<double, M>> separate(const VectorList<M>& components, int count) {
-  Projections<M> all(components, count);
+std::optional<std::array<double, M>> separate(const VectorList<M>& components, int count,
+                                              const std::array<double, M>& scale) {
+  Projections<M> all(components, count, scale);
   std::array<double, M> w = all.mean(), best{};
   double best_margin = 0, size = 0;
   Corral<M> corral;
@@ -182,11 +190,14 @@ std::optional<std::array<double, M>> separate(const VectorList<M>& components, i
     w = corral.point();
   }
   if (!(best_margin > 0)) return std::nullopt;
-  return best;
+  return all.scaled(best);
 }
 
-template std::optional<std::array<double, 2>> separate<2>(const VectorList<2>&, int);
-template std::optional<std::array<double, 4>> separate<4>(const VectorList<4>&, int);
-template std::optional<std::array<double, 5>> separate<5>(const VectorList<5>&, int);
+template std::optional<std::array<double, 2>> separate<2>(const VectorList<2>&, int,
+                                                          const std::array<double, 2>&);
+template std::optional<std::array<double, 4>> separate<4>(const VectorList<4>&, int,
+                                                          const std::array<double, 4>&);
+template std::optional<std::array<double, 5>> separate<5>(const VectorList<5>&, int,
+                                                          const std::array<double, 5>&);
 
 }  // namespace encase

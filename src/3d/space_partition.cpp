@@ -69,7 +69,7 @@ struct SpacePartition::State {
 
   /// What hinders a Listed certificate of a list: its points, and where it is not complete.
   std::vector<std::vector<Box<3>>> obstacles;
-  std::map<std::array<int, 2>, int> list_of;
+  std::map<std::array<int, 2>, std::vector<int>> lists_of;
   /// Where the list of a triple's common points is not complete.
   std::map<std::array<int, 3>, std::vector<Box<3>>> unresolved_triples;
 
@@ -84,7 +84,7 @@ struct SpacePartition::State {
   void remove(Item& item, std::size_t a);
   bool find_graphs(Item& item);
   bool find_pairs(Item& item, bool thorough);
-  bool listed(const Item& item, std::size_t a, std::size_t b, int* list) const;
+  int listed(const Item& item, std::size_t a, std::size_t b) const;
   bool triples_known(Item& item) const;
   bool certify(Item& item);
   void settle(Item& item, CellState state);
@@ -105,7 +105,7 @@ void SpacePartition::State::prepare() {
     planes.push_back(Plane::from_rationals({side[0], side[1], side[2], side[3]}));
   for (std::size_t k = 0; k < scene.critical_points.size(); ++k) {
     const CurveCriticalPoints& list = scene.critical_points[k];
-    list_of[list.surfaces] = static_cast<int>(k);
+    lists_of[list.surfaces].push_back(static_cast<int>(k));
     obstacles.push_back(list.points);
     const auto open = encase::leaves<3>(list.root, list.tokens, cover::kUnresolved);
     obstacles.back().insert(obstacles.back().end(), open.begin(), open.end());
@@ -219,15 +219,18 @@ bool SpacePartition::State::find_graphs(Item& item) {
   return all;
 }
 
-bool SpacePartition::State::listed(const Item& item, std::size_t a, std::size_t b,
-                                   int* list) const {
-  const auto found = list_of.find({item.alive[a], item.alive[b]});
-  if (found == list_of.end()) return false;
-  *list = found->second;
+/// A list of critical points of a pair that has none in the leaf, or -1.
+int SpacePartition::State::listed(const Item& item, std::size_t a, std::size_t b) const {
+  const auto lists = lists_of.find({item.alive[a], item.alive[b]});
+  if (lists == lists_of.end()) return -1;
   const Box<3>& box = leaves[static_cast<std::size_t>(item.leaf)].box;
-  const auto& boxes = obstacles[static_cast<std::size_t>(*list)];
-  return std::none_of(boxes.begin(), boxes.end(),
-                      [&](const Box<3>& other) { return other.meets(box); });
+  for (const int list : lists->second) {
+    const auto& boxes = obstacles[static_cast<std::size_t>(list)];
+    if (std::none_of(boxes.begin(), boxes.end(),
+                     [&](const Box<3>& other) { return other.meets(box); }))
+      return list;
+  }
+  return -1;
 }
 
 /// `thorough`: also by the costly means.
@@ -256,8 +259,7 @@ bool SpacePartition::State::find_pairs(Item& item, bool thorough) {
       ++tests;
       std::optional<PairCertificate> certificate =
           find_apart(in_degree(a, n, 0), in_degree(b, n, 1), box, f.scale(), g.scale());
-      int list = -1;
-      if (!certificate && listed(item, a, b, &list)) {
+      if (const int list = certificate ? -1 : listed(item, a, b); list >= 0) {
         certificate.emplace();
         certificate->kind = PairCertificate::Kind::Listed;
         certificate->box = box;
@@ -266,7 +268,7 @@ bool SpacePartition::State::find_pairs(Item& item, bool thorough) {
       }
       if (!certificate && thorough) {
         ++tests;
-        certificate = find_local(f, g, box, kernel);
+        certificate = find_local(f, g, box, std::max(item.bits[a], item.bits[b]), kernel);
       }
       if (!certificate) {
         all = false;
@@ -343,11 +345,12 @@ bool SpacePartition::State::clear(const Item& item, int axis, double at, bool st
   if (!strictly) return true;
   for (std::size_t a = 0; a < item.size(); ++a)
     for (std::size_t b = a + 1; b < item.size(); ++b) {
-      const auto list = list_of.find({item.alive[a], item.alive[b]});
-      if (list == list_of.end()) continue;
-      for (const Box<3>& box : obstacles[static_cast<std::size_t>(list->second)])
-        if (box.meets(leaf.box) && box.lo[axis] - margin <= at && at <= box.hi[axis] + margin)
-          return false;
+      const auto lists = lists_of.find({item.alive[a], item.alive[b]});
+      if (lists == lists_of.end()) continue;
+      for (const int list : lists->second)
+        for (const Box<3>& box : obstacles[static_cast<std::size_t>(list)])
+          if (box.meets(leaf.box) && box.lo[axis] - margin <= at && at <= box.hi[axis] + margin)
+            return false;
     }
   return true;
 }

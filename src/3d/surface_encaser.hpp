@@ -45,9 +45,13 @@ class SurfaceEncaser {
   void report_boxes(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
                     const std::string& diagnosis);
   bool add_triple_points(RootIsolation<3> roots, const std::array<int, 3>& surfaces);
+  bool gradients_are_parallel(int f, int g) const;
   void encase_facets();
-  /// Reads all cells; false if some were ambiguous and have been split.
+  /// Reads all cells, those first that were not read before; false if some were ambiguous and have
+  /// been split.
   bool read_all();
+  void read(const ReadingScene& scene, int cell);
+  bool split_ambiguous();
   bool facets_fail() const;
   void leave(int cell, Outcome outcome, std::string reason);
   struct Diagnosis {
@@ -63,6 +67,8 @@ class SurfaceEncaser {
   /// What became of a leaf.
   struct Cell {
     Reading reading;
+    bool is_settled = false;  ///< was read, and was not ambiguous
+    bool is_current = false;  ///< was read from the facets as they are numbered now
     std::vector<int> facets;
     std::optional<Outcome> trouble;  ///< Degenerate or Undecided: it is not certified
     std::string reason;

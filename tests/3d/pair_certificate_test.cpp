@@ -30,7 +30,7 @@ std::optional<PairCertificate> apart(const Surface3& f, const Surface3& g, const
 
 std::optional<PairCertificate> local(const Surface3& f, const Surface3& g, const Box<3>& box) {
   Kernel kernel;
-  return find_local(f, g, box, kernel);
+  return find_local(f, g, box, Kernel::kDoubleBits, kernel);
 }
 
 bool proved(const PairCertificate& c, const Surface3& f, const Surface3& g) {
