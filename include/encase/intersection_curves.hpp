@@ -9,7 +9,7 @@
 #include "encase/surface_encasement.hpp"
 
 /// The curves in which surfaces meet, and polylines along them with a proved distance.
-/// docs/surfaces.md says how and why.
+/// docs/meshes.md says how and why.
 namespace encase {
 
 /// An arc of a cell as a part of an intersection curve.

@@ -11,7 +11,7 @@
 
 namespace encase {
 
-/// A surface as triangles, glued from the patches of its cells. docs/surfaces.md says how.
+/// A surface as triangles, glued from the patches of its cells. docs/meshes.md says how.
 struct SurfaceMesh {
   int surface = -1;
   std::vector<Point<3>> points;   ///< used by some triangle each

@@ -9,7 +9,7 @@
 #include "encase/geometry.hpp"
 
 /// Polylines along the curve in which two surfaces meet, with a proved distance.
-/// docs/surfaces.md has the argument.
+/// docs/meshes.md has the argument.
 namespace encase {
 
 /// A point near a curve and a box around it that holds the curve's point which it stands for.

@@ -17,7 +17,7 @@ std::pair<int, int> ascending(int a, int b) { return {std::min(a, b), std::max(a
 
 FacetLines::FacetLines(const SurfaceEncasement& encasement,
                        const std::vector<FilteredFunction<3>>& functions, double tolerance,
-                       std::vector<Point<3>>* points)
+                       double angle, std::vector<Point<3>>* points)
     : encasement_(encasement), functions_(functions), points_(*points) {
   for (const FacetPoint& p : encasement.facet_points) {
     facet_points_.push_back(static_cast<int>(points_.size()));
@@ -33,6 +33,25 @@ FacetLines::FacetLines(const SurfaceEncasement& encasement,
     for (std::size_t k = 0; k < facet.arrangement.edges.size(); ++k)
       if (facet.arrangement.edges[k].curve >= 0)
         add_line(static_cast<int>(f), static_cast<int>(k), tracing.value().edges[k].points);
+  }
+  for (Line& line : lines_) refine(&line, tolerance, angle);
+  for (int k = 0; k < count(); ++k) remember(k);
+}
+
+/// Where the surface's normal turns by an angle over a length l, it leaves a triangle of that size
+/// by about angle l / 6.
+void FacetLines::refine(Line* line, double tolerance, double angle) {
+  constexpr int kMostPieces = 1000;
+  const auto normal = [&](int p) { return unit(functions_[line->surface].gradient(points_[p])); };
+  for (std::size_t k = 0; k + 1 < line->points.size() && line->points.size() < kMostPieces;) {
+    const int p = line->points[k], q = line->points[k + 1];
+    const double turn = length(normal(q) - normal(p));
+    const double away = turn * length(points_[q] - points_[p]) / 6;
+    if (turn > angle || away > 0.5 * tolerance)
+      line->points.insert(line->points.begin() + static_cast<std::ptrdiff_t>(k) + 1,
+                          place_between(*line, p, q));
+    else
+      ++k;
   }
 }
 
@@ -57,7 +76,6 @@ void FacetLines::add_line(int facet, int edge, const std::vector<Point<2>>& poly
                        place_between(line, line.points[0], line.points[1]));
   number_[{facet, edge}] = static_cast<int>(lines_.size());
   lines_.push_back(std::move(line));
-  remember(static_cast<int>(lines_.size()) - 1);
 }
 
 void FacetLines::remember(int line) {

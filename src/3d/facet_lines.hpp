@@ -14,10 +14,11 @@ namespace encase {
 /// both sides of a facet share them.
 class FacetLines {
  public:
-  /// All are to outlive this. Points go to the list `points`. Polylines of two points get a third
-  /// one, closed ones two more: no two have the same points in a row.
+  /// All are to outlive this. Points go to the list `points`. Between two of them that follow each
+  /// other the surface's normal turns by at most about `angle`. Every polyline has at least three
+  /// points, a closed one three different ones: no two have the same points in a row.
   FacetLines(const SurfaceEncasement& encasement, const std::vector<FilteredFunction<3>>& functions,
-             double tolerance, std::vector<Point<3>>* points);
+             double tolerance, double angle, std::vector<Point<3>>* points);
 
   /// The points along a half-edge, but for the last one.
   std::vector<int> along(const FacetEdge& edge) const;
@@ -36,6 +37,7 @@ class FacetLines {
   };
   void add_line(int facet, int edge, const std::vector<Point<2>>& polyline);
   int place_between(const Line& line, int from, int to);
+  void refine(Line* line, double tolerance, double angle);
   void remember(int line);
 
   const SurfaceEncasement& encasement_;

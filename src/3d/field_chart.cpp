@@ -24,6 +24,21 @@ double doubled_area(const std::vector<Point<3>>& polygon) {
   return area;
 }
 
+/// Whether the sides of a polygon in the plane of the first two coordinates cross each other.
+bool crosses_itself(const std::vector<Point<3>>& polygon) {
+  const std::size_t n = polygon.size();
+  const auto turn = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return cross(polygon[b] - polygon[a], polygon[c] - polygon[a])[2];
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j) {
+      const std::size_t p = i + 1, q = (j + 1) % n;
+      if (q == i) continue;
+      if (turn(i, p, j) * turn(i, p, q) <= 0 && turn(j, q, i) * turn(j, q, p) <= 0) return true;
+    }
+  return false;
+}
+
 /// Directions all around.
 std::vector<Point<3>> directions() {
   std::vector<Point<3>> all;
@@ -38,13 +53,19 @@ std::vector<Point<3>> directions() {
 
 }  // namespace
 
-FieldChart::FieldChart(const GraphCertificate& graph, const std::vector<Point<3>>& boundary) {
+FieldChart::FieldChart(const GraphCertificate& graph, const std::vector<Point<3>>& boundary,
+                       const std::vector<Point<3>>& normals) {
+  constexpr double kLeastCosine = 0.3;
+  Point<3> mean_normal{};
+  for (const Point<3>& normal : normals) mean_normal = mean_normal + normal;
+  origin_ = boundary.front();
+  look_from(unit(mean_normal));
+  bool flat = true;
+  for (const Point<3>& normal : normals) flat = flat && dot(normal, w_) > kLeastCosine;
+  const std::vector<Point<3>> seen = images(boundary);
+  if (flat && doubled_area(seen) > 0 && !crosses_itself(seen)) return;
   if (graph.spread == 0) {
-    origin_ = boundary.front();
-    w_ = unit(graph.direction);
-    const auto basis = across(w_);
-    u_ = basis[0];
-    v_ = basis[1];
+    look_from(unit(graph.direction));
     return;
   }
   kind_ = Kind::Stereographic;
@@ -67,9 +88,7 @@ FieldChart::FieldChart(const GraphCertificate& graph, const std::vector<Point<3>
     for (const Point<3>& ray : rays) nearest = std::min(nearest, 1 + dot(ray, candidate));
     if (!(nearest > best)) continue;
     look_from(candidate);
-    std::vector<Point<3>> image;
-    for (const Point<3>& p : boundary) image.push_back(coordinates(p));
-    if (!(doubled_area(image) > 0)) continue;
+    if (!(doubled_area(images(boundary)) > 0)) continue;
     best = nearest;
     middle = candidate;
   }
@@ -84,6 +103,12 @@ void FieldChart::look_from(const Point<3>& middle) {
   const auto basis = across(w_);
   u_ = outward_ > 0 ? basis[0] : basis[1];
   v_ = outward_ > 0 ? basis[1] : basis[0];
+}
+
+std::vector<Point<3>> FieldChart::images(const std::vector<Point<3>>& points) const {
+  std::vector<Point<3>> all;
+  for (const Point<3>& p : points) all.push_back(coordinates(p));
+  return all;
 }
 
 Point<3> FieldChart::coordinates(const Point<3>& point) const {

@@ -8,14 +8,17 @@
 
 namespace encase {
 
-/// The lines of a graph certificate's field V, as points of a plane or, of a closed surface around
-/// V's centre, as directions. In doubles: what is made with it is proved elsewhere.
+/// Lines that a patch of a surface meets once, as points of a plane or, of a closed surface around
+/// a centre, as directions: those of a graph certificate's field V, or others that are less steep.
+/// In doubles: what is made with it is proved elsewhere.
 class FieldChart {
  public:
-  /// For a patch that is a disc with this boundary, its left side inside seen from where V comes.
-  /// Parallel lines go to points of a plane across them, rays stereographically to a plane, from a
-  /// direction outside of the patch.
-  FieldChart(const GraphCertificate& graph, const std::vector<Point<3>>& boundary);
+  /// For a patch that is a disc with this boundary, its left side inside seen from where V points,
+  /// and the surface's normals there. If these are nearly parallel, and the boundary is simple
+  /// seen from their mean, lines are parallel to that. Else parallel lines of V go to points of a
+  /// plane across them, rays stereographically to a plane, from a direction outside of the patch.
+  FieldChart(const GraphCertificate& graph, const std::vector<Point<3>>& boundary,
+             const std::vector<Point<3>>& normals);
   /// For a closed surface around the centre of V.
   explicit FieldChart(const GraphCertificate& graph);
 
@@ -33,6 +36,7 @@ class FieldChart {
  private:
   enum class Kind { Parallel, Stereographic, Directions };
   void look_from(const Point<3>& middle);
+  std::vector<Point<3>> images(const std::vector<Point<3>>& points) const;
 
   Kind kind_ = Kind::Parallel;
   Point<3> origin_{};  ///< of the coordinates, or the centre of V

@@ -47,6 +47,8 @@ bool PatchMesh::fill(const std::vector<int>& boundary) {
     plane.push_back({coordinates_.back()[0], coordinates_.back()[1]});
   }
   if (polygon.size() < 3) return false;
+  for (std::size_t k = 0; k < boundary.size(); ++k)
+    boundary_.emplace_back(boundary[k], boundary[(k + 1) % boundary.size()]);
   for (const auto& corners : cut_ears(plane, polygon))
     triangles_.push_back({corners, {-1, -1, -1}, {}, false});
   join_neighbours();
@@ -86,7 +88,8 @@ bool PatchMesh::surround(const Box<3>& cell) {
   return true;
 }
 
-/// The point of the surface on a line, near the guess: the only one in the certificate's box.
+/// The point of the surface on a line, near the guess. It is in the certificate's box, so it is the
+/// surface's only point on its line of the certificate's field there.
 bool PatchMesh::lift(const FieldChart::Line& line, double guess, Point<3>* point) const {
   double t = guess;
   for (int step = 0; step < 12; ++step) {
@@ -108,6 +111,18 @@ bool PatchMesh::lift(const FieldChart::Line& line, double guess, Point<3>* point
     if (before.hi < 0 && behind.lo > 0) return true;
   }
   return false;
+}
+
+/// Whether a new point would make flat triangles with an edge of the boundary, which is too long
+/// then (Ruppert's criterion).
+bool PatchMesh::crowds_boundary(const Point<3>& point) {
+  bool crowds = false;
+  for (const auto& edge : boundary_) {
+    if (!(dot(points_[edge.first] - point, points_[edge.second] - point) < 0)) continue;
+    too_long_.push_back(edge);
+    crowds = true;
+  }
+  return crowds;
 }
 
 int PatchMesh::edge_towards(int triangle, int neighbour) const {
@@ -134,15 +149,16 @@ bool PatchMesh::split(int t, int edge, std::vector<int>* changed) {
   const int a = triangles_[t].corners[edge], b = triangles_[t].corners[(edge + 1) % 3],
             c = triangles_[t].corners[(edge + 2) % 3], d = triangles_[u].corners[(other + 2) % 3];
   const FieldChart::Line line = chart_.line(0.5 * (coordinates_[a] + coordinates_[b]));
-  Point<3> point;
   const Point<3> middle = 0.5 * (at(a) + at(b));
-  if (!lift(line, dot(middle - line.at, line.along), &point)) return false;
+  Point<3> point;
+  if (!lift(line, dot(middle - line.at, line.along), &point) || crowds_boundary(point))
+    return false;
   points_.push_back(point);
   const int m = add(static_cast<int>(points_.size()) - 1);
   if (!(positive(a, m, c) && positive(m, b, c) && positive(b, m, d) && positive(m, a, d))) {
+    points_.pop_back();
     ids_.pop_back();
     coordinates_.pop_back();
-    points_.pop_back();
     return false;
   }
   const int beyond_bc = triangles_[t].neighbours[(edge + 1) % 3];
@@ -170,7 +186,9 @@ bool PatchMesh::wants_flip(int t, int edge) const {
   const int d = triangles_[u].corners[(edge_towards(u, t) + 2) % 3];
   if (!positive(a, d, c) || !positive(d, b, c)) return false;
   if (!positive(a, b, c) || !positive(b, a, d)) return true;
-  return cotangent(at(a), at(b), at(c)) + cotangent(at(a), at(b), at(d)) < -0x1p-20;
+  return cotangent(coordinates_[a], coordinates_[b], coordinates_[c]) +
+             cotangent(coordinates_[a], coordinates_[b], coordinates_[d]) <
+         -0x1p-20;
 }
 
 /// The triangles a b c and b a d become a d c and d b c.
@@ -188,8 +206,8 @@ void PatchMesh::flip(int t, int edge) {
   replace_neighbour(beyond_bc, t, u);
 }
 
-/// Flips edges whose opposite angles add up to more than pi, which ends in a plane; here, where
-/// angles are those in space, after a bounded number of flips.
+/// Flips edges whose opposite angles in the chart add up to more than pi; for certain only a
+/// bounded number of times.
 void PatchMesh::make_delaunay(std::vector<int> work, std::vector<int>* changed) {
   std::size_t left = 16 + 8 * work.size();
   while (!work.empty() && left > 0) {
@@ -220,6 +238,12 @@ void PatchMesh::divide(int t, std::vector<int>* changed) {
   }
   triangles_[t].given_up = true;
   if (most < goal_.least_length) return;
+  // Flat triangles beget flat ones: what is around them must be divided, or the boundary.
+  constexpr double kFlat = 0.02;
+  const Point<3>& first = at(triangles_[t].corners[0]);
+  const Point<3> doubled_area =
+      cross(at(triangles_[t].corners[1]) - first, at(triangles_[t].corners[2]) - first);
+  if (triangles_[t].neighbours[longest] >= 0 && length(doubled_area) < kFlat * most * most) return;
   if (triangles_[t].neighbours[longest] < 0) {
     too_long_.emplace_back(ids_[triangles_[t].corners[longest]],
                            ids_[triangles_[t].corners[(longest + 1) % 3]]);

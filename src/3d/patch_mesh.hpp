@@ -62,6 +62,7 @@ class PatchMesh {
   }
   void join_neighbours();
   bool lift(const FieldChart::Line& line, double guess, Point<3>* point) const;
+  bool crowds_boundary(const Point<3>& point);
   void divide(int triangle, std::vector<int>* changed);
   bool split(int triangle, int edge, std::vector<int>* changed);
   bool wants_flip(int triangle, int edge) const;
@@ -79,6 +80,7 @@ class PatchMesh {
   std::vector<int> ids_;
   std::vector<Point<3>> coordinates_;
   std::vector<Triangle> triangles_;
+  std::vector<std::pair<int, int>> boundary_;  ///< its edges, by the places of their points
   std::vector<std::pair<int, int>> too_long_;
 };
 

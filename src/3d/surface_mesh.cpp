@@ -31,7 +31,8 @@ class Mesher {
     functions_.reserve(encasement.surfaces.size());
     for (const Surface& surface : encasement.surfaces) functions_.emplace_back(surface.function);
     for (const auto& function : functions_) bounds_.emplace_back(function, size);
-    lines_ = std::make_unique<FacetLines>(encasement, functions_, options.tolerance, &points_);
+    lines_ = std::make_unique<FacetLines>(encasement, functions_, options.tolerance, options.angle,
+                                          &points_);
     collect_patches();
   }
 
@@ -99,14 +100,15 @@ class Mesher {
     patch->bounds.clear();
     patch->too_long.clear();
     std::vector<int> boundary;
-    std::vector<Point<3>> corners;
+    std::vector<Point<3>> corners, normals;
     for (const FacetEdge& edge : patch->patch->loop)
       for (const int p : lines_->along(edge)) {
         boundary.push_back(p);
         corners.push_back(points_[p]);
+        normals.push_back(unit(functions_[patch->patch->surface].gradient(points_[p])));
       }
     const FieldChart chart =
-        boundary.empty() ? FieldChart(*patch->graph) : FieldChart(*patch->graph, corners);
+        boundary.empty() ? FieldChart(*patch->graph) : FieldChart(*patch->graph, corners, normals);
     goal_.most_triangles = std::max(left_, 0);
     PatchMesh mesh(chart, *patch->graph, bounds_[patch->patch->surface], goal_, &points_, kernel_);
     patch->failed = !(boundary.empty() ? mesh.surround(encasement_.cells[patch->cell].box)

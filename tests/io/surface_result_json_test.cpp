@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "encase/surface_result_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "3d/encased_surfaces.hpp"
+
+namespace encase {
+namespace {
+
+SurfaceEncasement sample() { return encased_surfaces({"x^2+y^2+z^2-1", "z-1/3", "x-y/5-1/10"}, 2); }
+
+TEST(SurfaceResultJson, ReadsBackTheSameBytes) {
+  const std::string text = to_json(sample());
+  const auto read = surfaces_from_json(text, "sample.json");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(to_json(read.value()), text);
+  EXPECT_EQ(read.value().triple_points.size(), 2u);
+}
+
+TEST(SurfaceResultJson, RefusesWhatRefersToNothing) {
+  const nlohmann::json good = nlohmann::json::parse(to_json(sample()));
+  const auto refused = [&](const char* pointer, const nlohmann::json& value) {
+    nlohmann::json bad = good;
+    bad[nlohmann::json::json_pointer(pointer)] = value;
+    const auto read = surfaces_from_json(bad.dump(), "bad.json");
+    return !read && read.error().code == Error::Code::BadInput &&
+           read.error().message.find("bad.json: ") == 0;
+  };
+  EXPECT_TRUE(refused("/command", "curves"));
+  EXPECT_TRUE(refused("/version", 2));
+  EXPECT_TRUE(refused("/cells/0/facets/0", 100000));
+  EXPECT_TRUE(refused("/cells/0/signs", nlohmann::json::array()));
+  EXPECT_TRUE(refused("/facets/0/plane", -1));
+  EXPECT_TRUE(refused("/facets/0/side_planes", nlohmann::json::array()));
+  EXPECT_TRUE(refused("/points/0/surfaces", {2, 1, 0}));
+  EXPECT_TRUE(refused("/history/0/1", 0));
+  EXPECT_TRUE(refused("/certificates/graphs/0/box", 7));
+  EXPECT_FALSE(surfaces_from_json("{", "bad.json"));
+}
+
+TEST(SurfaceSummary, CountsCurvesAndShapes) {
+  const auto summary =
+      nlohmann::json::parse(summary_json(encased_surfaces({"x^2+y^2+z^2-1", "z-1/3"}, 2)));
+  EXPECT_EQ(summary["status"], "certified");
+  EXPECT_EQ(summary["surfaces"], 2);
+  EXPECT_EQ(summary["points"], 0);
+  EXPECT_EQ(summary["intersection_curves"], 1);
+  EXPECT_EQ(summary["closed_curves"], 1);
+  EXPECT_EQ(summary["euler"], nlohmann::json({2, 1}));
+  EXPECT_EQ(summary["components"], nlohmann::json({1, 1}));
+}
+
+}  // namespace
+}  // namespace encase
