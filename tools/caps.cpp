@@ -2,12 +2,9 @@
 #include "caps.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -24,24 +21,6 @@
 
 namespace encase {
 namespace {
-
-Error bad_input(const std::string& message) { return {Error::Code::BadInput, message}; }
-
-Status check_request(const CapsRequest& r) {
-  if (r.file.empty() == r.expressions.empty())
-    return bad_input("give either a FILE of curves or expressions with -e; see encase caps --help");
-  if ((r.json == "-") + (r.svg == "-") + r.summary > 1)
-    return bad_input("only one of --json -, --svg - and --summary can have standard output");
-  if (!std::isfinite(r.options.max_seconds))
-    return bad_input("--max-seconds must be a finite number");
-#ifndef ENCASE_HAVE_VTK
-  if (!r.vtk_directory.empty())
-    return bad_input("-o needs VTK, and this encase was built without VTK");
-#endif
-  for (const std::string* path : {&r.json, &r.svg})
-    if (const Status status = check_writable(*path)) return status;
-  return check_writable_directory(r.vtk_directory);
-}
 
 /// A file's word as people write it.
 std::string words(std::string name) {
@@ -146,28 +125,21 @@ Status write_files(const CapsRequest& r, const CapsResult& result) {
 }
 
 Status write_report(const CapsRequest& r, const CapsResult& result) {
-  std::string text = caps_report(result);
-  if (r.verbose) text += statistics_report(result);
-  if (r.summary) {
-    if (const Status status = print(summary_json(result) + "\n")) return status;
-    if (r.verbose) std::fputs(text.c_str(), stderr);
-    return {};
-  }
-  if (r.quiet) return {};
-  if (r.json != "-" && r.svg != "-") return print(text);
-  std::fputs(text.c_str(), stderr);
-  return {};
+  return print_report(r, r.summary ? summary_json(result) : "",
+                      caps_report(result) + (r.verbose ? statistics_report(result) : ""));
 }
 
 }  // namespace
 
 ExitCode run_caps(CapsRequest request) {
-  if (const Status status = check_request(request)) return fail(*status);
+  const double max_seconds = request.options.max_seconds;
+  if (const Status status = check_request(request, "caps", "curves", max_seconds))
+    return fail(*status);
+  if (const Status status = check_outputs(request)) return fail(*status);
   const auto input = read_curves_input(request.file, request.expressions, request.region, true);
   if (!input) return fail(input.error());
 
-  const bool on_terminal = (request.json == "-" || request.svg == "-") && isatty(STDOUT_FILENO);
-  std::optional<Progress> progress(std::in_place, !request.quiet && !on_terminal);
+  std::optional<Progress> progress(std::in_place, may_show_progress(request));
   request.options.progress = progress->callback();
   const auto result = caps(input.value().curves, *input.value().region, request.options);
   progress->begin("writing the result");

@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "encase/caps.hpp"
 #include "exit_code.hpp"
+#include "request.hpp"
 
 namespace encase {
 
 /// What `encase caps` was asked for.
-struct CapsRequest {
-  std::string file;                      ///< "-" is standard input; empty: `expressions`
-  std::vector<std::string> expressions;  ///< of -e
-  std::string region;                    ///< of --region, overrides the file's
-  std::string json;
-  std::string svg;
-  std::string vtk_directory;
-  bool summary = false;
-  bool quiet = false;
-  bool verbose = false;
+struct CapsRequest : Request {
   CapsOptions options;
 };
 

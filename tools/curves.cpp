@@ -2,10 +2,7 @@
 #include "curves.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -34,11 +31,8 @@ namespace {
 Error bad_input(const std::string& message) { return {Error::Code::BadInput, message}; }
 
 Status check_options(const CurvesRequest& r) {
-  if (r.file.empty() == r.expressions.empty())
-    return bad_input(
-        "give either a FILE of curves or expressions with -e; see encase curves --help");
-  if ((r.json == "-") + (r.svg == "-") + r.summary > 1)
-    return bad_input("only one of --json -, --svg - and --summary can have standard output");
+  if (const Status status = check_request(r, "curves", "curves", r.options.max_seconds))
+    return status;
   if (r.faces && r.svg.empty() && r.mesh.empty())
     return bad_input("--faces belongs to the picture or the mesh: give --svg or --mesh");
   if (r.labels && r.svg.empty()) return bad_input("--labels belongs to the picture: give --svg");
@@ -50,19 +44,13 @@ Status check_options(const CurvesRequest& r) {
     return bad_input("--history belongs to the VTK files: give their directory with -o");
   if (r.options.start_bits > r.options.max_bits)
     return bad_input("--start-bits is above --max-bits");
-  if (!std::isfinite(r.options.max_seconds))
-    return bad_input("--max-seconds must be a finite number");
   if (!(r.options.perturbation >= 0 && r.options.perturbation < 1))
     return bad_input("--perturb must be between 0 and 1");
   return {};
 }
 
-/// What is asked for can be written: the component is there, the format is known, the place exists.
-Status check_outputs(const CurvesRequest& r) {
-#ifndef ENCASE_HAVE_VTK
-  if (!r.vtk_directory.empty())
-    return bad_input("-o needs VTK, and this encase was built without VTK");
-#endif
+/// The mesh's format is known, and all that is asked for can be written.
+Status check_files(const CurvesRequest& r) {
   if (!r.mesh.empty()) {
 #ifdef ENCASE_HAVE_OPEN_MESH
     const std::string extension = std::filesystem::path(r.mesh).extension().string();
@@ -72,9 +60,8 @@ Status check_outputs(const CurvesRequest& r) {
     return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
 #endif
   }
-  for (const std::string* path : {&r.json, &r.svg, &r.mesh})
-    if (const Status status = check_writable(*path)) return status;
-  return check_writable_directory(r.vtk_directory);
+  if (const Status status = check_outputs(r)) return status;
+  return check_writable(r.mesh);
 }
 
 struct Input {
@@ -167,34 +154,21 @@ Status write_report(const CurvesRequest& r, const Answer& answer,
                     std::optional<Progress>& progress) {
   std::string text = report(answer.encasement);
   if (r.verbose) text += statistics_report(answer.encasement) + threads_report(r.options.threads);
-  if (r.summary) {
-    const std::string counts = summary_json(answer.encasement, answer.arranged());
-    progress.reset();
-    if (const Status status = print(counts + "\n")) return status;
-    if (r.verbose) std::fputs(text.c_str(), stderr);
-    return {};
-  }
+  const std::string counts =
+      r.summary ? summary_json(answer.encasement, answer.arranged()) : std::string();
   progress.reset();
-  if (r.quiet) return {};
-  if (r.json != "-" && r.svg != "-") return print(text);
-  std::fputs(text.c_str(), stderr);
-  return {};
-}
-
-/// Whether the progress would be shown in the middle of an output.
-bool prints_on_terminal(const CurvesRequest& r) {
-  return (r.json == "-" || r.svg == "-") && isatty(STDOUT_FILENO);
+  return print_report(r, counts, text);
 }
 
 }  // namespace
 
 ExitCode run_curves(CurvesRequest request) {
   if (const Status status = check_options(request)) return fail(*status);
-  if (const Status status = check_outputs(request)) return fail(*status);
+  if (const Status status = check_files(request)) return fail(*status);
   const auto input = read(request);
   if (!input) return fail(input.error());
 
-  std::optional<Progress> progress(std::in_place, !request.quiet && !prints_on_terminal(request));
+  std::optional<Progress> progress(std::in_place, may_show_progress(request));
   request.options.progress = progress->callback();
   const auto& [earlier, curves, region] = input.value();
   auto result = earlier ? add_curves(*earlier, curves, request.options)

@@ -222,7 +222,7 @@ void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
 
 int main(int argc, char** argv) {
   using namespace encase;
-  CLI::App app("Certified encasements of algebraic curves and surfaces", "encase");
+  CLI::App app("Certified encasements and arrangements of curves and surfaces", "encase");
   app.set_version_flag("--version", std::string("encase ") + kVersion);
   app.require_subcommand(1);
   app.footer(kExitCodes);
@@ -241,8 +241,7 @@ int main(int argc, char** argv) {
 
   CheckRequest proof;
   CLI::App* check = app.add_subcommand("check", "Prove a result again from its own facts");
-  check->add_option("RESULT", proof.file, "what curves --json wrote; - is standard input")
-      ->required();
+  check->add_option("RESULT", proof.file, "what --json wrote; - is standard input")->required();
   check->add_flag("-q", proof.quiet, "print nothing but errors");
   add_threads(*check, proof.options.threads, "how many may work");
   check->footer(kExitCodes);

@@ -2,12 +2,9 @@
 #include "slice.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,25 +26,14 @@ namespace {
 
 Error bad_input(const std::string& message) { return {Error::Code::BadInput, message}; }
 
-Status check_request(const SliceRequest& r) {
-  if (r.file.empty() == r.expressions.empty())
-    return bad_input(
-        "give either a FILE of surfaces or expressions with -e; see encase slice --help");
+Status check_options(const SliceRequest& r) {
+  if (const Status status = check_request(r, "slice", "surfaces", r.options.max_seconds))
+    return status;
   if (r.plane.empty())
     return bad_input("no plane is given: --plane \"a b c d\" is a x + b y + c z + d = 0");
   if (r.count > 0 && !(r.json.empty() && r.svg.empty()))
     return bad_input("--json and --svg show one slice: leave out --count, or take -o");
-  if ((r.json == "-") + (r.svg == "-") + r.summary > 1)
-    return bad_input("only one of --json -, --svg - and --summary can have standard output");
-  if (!std::isfinite(r.options.max_seconds))
-    return bad_input("--max-seconds must be a finite number");
-#ifndef ENCASE_HAVE_VTK
-  if (!r.vtk_directory.empty())
-    return bad_input("-o needs VTK, and this encase was built without VTK");
-#endif
-  for (const std::string* path : {&r.json, &r.svg})
-    if (const Status status = check_writable(*path)) return status;
-  return check_writable_directory(r.vtk_directory);
+  return check_outputs(r);
 }
 
 struct Input {
@@ -157,28 +143,19 @@ std::string slice_report(const SliceRequest& r, const Slice& slice) {
 Status write_report(const SliceRequest& r, const std::vector<Slice>& slices) {
   std::string text;
   for (const Slice& slice : slices) text += (text.empty() ? "" : "\n") + slice_report(r, slice);
-  if (r.summary) {
-    const auto counts = summary(r, slices);
-    if (!counts) return counts.error();
-    if (const Status status = print(counts.value())) return status;
-    if (r.verbose) std::fputs(text.c_str(), stderr);
-    return {};
-  }
-  if (r.quiet) return {};
-  if (r.json != "-" && r.svg != "-") return print(text);
-  std::fputs(text.c_str(), stderr);
-  return {};
+  if (!r.summary) return print_report(r, "", text);
+  const auto counts = summary(r, slices);
+  return counts ? print_report(r, counts.value(), text) : Status(counts.error());
 }
 
 }  // namespace
 
 ExitCode run_slice(SliceRequest request) {
-  if (const Status status = check_request(request)) return fail(*status);
+  if (const Status status = check_options(request)) return fail(*status);
   const auto input = read(request);
   if (!input) return fail(input.error());
 
-  const bool on_terminal = (request.json == "-" || request.svg == "-") && isatty(STDOUT_FILENO);
-  std::optional<Progress> progress(std::in_place, !request.quiet && !on_terminal);
+  std::optional<Progress> progress(std::in_place, may_show_progress(request));
   request.options.progress = progress->callback();
   const auto slices = make_slices(input.value(), request.options);
   progress->begin("writing the result");

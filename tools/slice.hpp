@@ -2,26 +2,17 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "encase/slice.hpp"
 #include "exit_code.hpp"
+#include "request.hpp"
 
 namespace encase {
 
 /// What `encase slice` was asked for.
-struct SliceRequest {
-  std::string file;                      ///< "-" is standard input; empty: `expressions`
-  std::vector<std::string> expressions;  ///< of -e
-  std::string region;                    ///< of --region, overrides the file's
+struct SliceRequest : Request {
   std::string plane;
   int count = 0;  ///< so many parallel planes; 0: the plane itself
-  std::string json;
-  std::string svg;
-  std::string vtk_directory;
-  bool summary = false;
-  bool quiet = false;
-  bool verbose = false;
   EncaseOptions options;
 };
 
