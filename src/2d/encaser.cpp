@@ -45,7 +45,7 @@ double smallest_part(Unresolved::Kind kind) {
 /// Whether to look for the common zeros of a pair only in its open leaves. A few leaves leave
 /// little out of the box around them, and very many are small, and tell little.
 bool leaves_tell(const MeetingPair& pair) {
-  constexpr std::size_t kFew = 2, kMany = 1024;
+  constexpr std::size_t kFew = 8, kMany = 1024;
   return pair.open() == 0 || (pair.meetings.size() > kFew && pair.meetings.size() <= kMany);
 }
 

@@ -96,10 +96,16 @@ class PlaneSubdivision {
         half_planes_(half_planes),
         limits_(limits),
         kernel_(kernel),
-        stack_(std::make_unique_for_overwrite<Node[]>(kLevelsPerBand + 2)) {
+        stack_(taken_over(&spare_stack(), kLevelsPerBand + 2)) {
     for (const auto& leaf : sought_.leaves)
       for (const TiledFunction* f : leaf.polynomials) has_gaps_ = has_gaps_ || !f->gaps().empty();
-    if (N == 2) bases_ = std::make_unique_for_overwrite<CubicBase[]>(kLevelsPerBand + 1);
+    if (N == 2) bases_ = taken_over(&spare_bases(), kLevelsPerBand + 1);
+  }
+  PlaneSubdivision(const PlaneSubdivision&) = delete;
+  PlaneSubdivision& operator=(const PlaneSubdivision&) = delete;
+  ~PlaneSubdivision() {
+    spare_stack() = std::move(stack_);
+    spare_bases() = std::move(bases_);
   }
   /// Of a whole box.
   PlaneSubdivision(const std::array<TiledFunction*, N>& polynomials, const Box<2>& root,
@@ -129,6 +135,22 @@ class PlaneSubdivision {
     int level;
     std::unique_ptr<Tile> tile;
   };
+
+  // The arrays of one subdivision serve the thread's next one: else what many pairs leave behind
+  // lies between, and memory ends up in pieces.
+  static std::unique_ptr<Node[]>& spare_stack() {
+    static thread_local std::unique_ptr<Node[]> spare;
+    return spare;
+  }
+  static std::unique_ptr<CubicBase[]>& spare_bases() {
+    static thread_local std::unique_ptr<CubicBase[]> spare;
+    return spare;
+  }
+  template <class T>
+  static std::unique_ptr<T[]> taken_over(std::unique_ptr<T[]>* spare, int size) {
+    if (*spare) return std::move(*spare);
+    return std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(size));
+  }
 
   template <class Visit>
   void descend(const Box<2>& box, int level, int leaf, int budget, Visit visit);

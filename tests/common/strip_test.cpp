@@ -102,5 +102,50 @@ TEST(Strips, WithACommonPointInTheBoxAreNeverApart) {
   }
 }
 
+/// A polynomial's patch on a box, and its strip.
+struct Shown {
+  Shown(const Polynomial<2>& polynomial, const Box<2>& box) {
+    const FilteredFunction<2> f(polynomial);
+    Kernel kernel;
+    TiledFunction tiled(f, {{-1, -1}, {1, 1}}, kernel);
+    expand(tiled.at(box.center()), box, patch_count(polynomial.degree()), &patch);
+    strip = strip_of(patch);
+  }
+  Patch patch;
+  Strip strip;
+};
+bool are_apart(const Shown& a, const Shown& b) { return apart(a.patch, a.strip, b.patch, b.strip); }
+
+TEST(Patches, OfCurvesThatBendBesideEachOtherAreApartWhereStripsAreNot) {
+  const auto x = Polynomial<2>::variable(0), y = Polynomial<2>::variable(1);
+  const auto lifted = [&](const Rational& by) { return y - x * x - Polynomial<2>::constant(by); };
+  const Box<2> box{{-0.5, -0.5}, {0.5, 0.5}};
+  const Shown low(lifted(0), box), high(lifted(Rational(1, 100)), box);
+  EXPECT_FALSE(apart(low.strip, high.strip));
+  EXPECT_TRUE(are_apart(low, high));
+  EXPECT_TRUE(are_apart(high, low));
+  EXPECT_FALSE(are_apart(low, low));
+  EXPECT_FALSE(are_apart(low, Shown(y + x * x - Polynomial<2>::constant(Rational(1, 100)), box)));
+}
+
+TEST(Patches, OfCurvesWithACommonPointAreNeverApart) {
+  Random random(11);
+  for (int k = 0; k < 400; ++k) {
+    const Box<2> box = random_box(2 + k % 4, random);
+    const RationalPoint<2> s = random_point(random);
+    RationalPoint<2> at;
+    for (int i = 0; i < 2; ++i)
+      at[i] = (Rational(box.lo[i]) + Rational(box.hi[i])) / 2 +
+              (Rational(box.hi[i]) - Rational(box.lo[i])) / 2 * s[i];
+    const auto through = [&](const Polynomial<2>& f) { return f - Polynomial<2>::constant(f(at)); };
+    const auto first = through(random_polynomial(5, random));
+    // Every other time they nearly touch there.
+    const auto other = through(random_polynomial(5, random));
+    const auto second =
+        k % 2 == 0 ? other : first + Polynomial<2>::constant(Rational(1, 1000)) * other;
+    EXPECT_FALSE(are_apart(Shown(first, box), Shown(second, box)));
+  }
+}
+
 }  // namespace
 }  // namespace encase
