@@ -30,9 +30,9 @@ Point<3> generic_direction(int number) {
 }
 
 /// For how many directions critical points are listed for two surfaces with this sum of degrees. A
-/// cell needs one list without a point in it: more lists save cells, but those of high degree
-/// cost more than cells do.
-int most_lists(int degrees) { return degrees <= 6 ? 3 : degrees <= 8 ? 2 : 1; }
+/// cell needs one list without a point in it, so more lists save cells; but to make lists of a
+/// higher degree costs more than those cells.
+int most_lists(int degrees) { return degrees <= 4 ? 2 : 1; }
 
 /// The side of the plane on which the whole box lies, as far as intervals tell.
 std::optional<Sign> side(const HalfSpace& half_space, const Box<3>& box) {
