@@ -20,25 +20,29 @@ struct Step {
   bool used = false;
 };
 
-/// A facet's side: a part of the common line of two planes.
-struct SidePart {
-  int facet = -1;
-  std::size_t side = 0;
-  std::array<int, 2> line{};  ///< its planes, ascending
-  int plane = -1;             ///< the facet's
-  bool forward = false;       ///< the line's coordinate grows along the side
-  Rational lo, hi;            ///< of the coordinate
-
-  /// Parts of equal chains follow each other along the line, and do not overlap.
-  auto chain() const { return std::tuple(line, plane, forward); }
-};
+/// The coordinates of a side's ends: the first that differs.
+std::array<Rational, 2> ends_of_side(const PlaneChart& chart, const RationalPoint<2>& from,
+                                     const RationalPoint<2>& to) {
+  const auto [u, v] = chart.axes();
+  const std::array<Rational, 4>& plane = chart.plane();
+  if (plane[u] == 0 && plane[v] == 0) {
+    // The third coordinate is the same everywhere.
+    const std::size_t lower = u < v ? 0 : 1;
+    const std::size_t first = from[lower] != to[lower] ? lower : 1 - lower;
+    return {from[first], to[first]};
+  }
+  const RationalPoint<3> start = chart.lift(from), end = chart.lift(to);
+  std::size_t axis = 0;
+  while (start[axis] == end[axis]) ++axis;
+  return {start[axis], end[axis]};
+}
 
 /// Components of what a surface leaves of some facets.
 class SignComponents {
  public:
-  SignComponents(const CellBoundary& boundary, PlaneCharts& charts, int surface,
+  SignComponents(const CellBoundary& boundary, int surface,
                  const std::function<bool(int)>& is_included)
-      : boundary_(boundary), charts_(charts), surface_(surface) {
+      : boundary_(boundary), surface_(surface) {
     for (const int f : boundary.facets())
       if (is_included(f)) facets_.push_back(f);
   }
@@ -100,7 +104,7 @@ class SignComponents {
     if (curve < 0) return {{node(part.facet, 0)}};
     const Facet& facet = boundary_.facet(part.facet);
     const Arrangement& a = facet.arrangement;
-    int vertex = static_cast<int>(part.side);
+    int vertex = part.side;
     do {
       const auto h =
           static_cast<std::size_t>(a.vertices[static_cast<std::size_t>(vertex)].half_edge);
@@ -116,50 +120,22 @@ class SignComponents {
     return gaps;
   }
 
-  std::vector<SidePart> side_parts() const {
-    std::vector<SidePart> parts;
-    for (const int index : facets_) {
-      const Facet& facet = boundary_.facet(index);
-      const auto& corners = facet.polygon.corners;
-      for (std::size_t k = 0; k < corners.size(); ++k) {
-        const PlaneChart& chart = charts_.of(facet.plane);
-        RationalPoint<3> from = chart.lift(corners[k]),
-                         to = chart.lift(corners[(k + 1) % corners.size()]);
-        std::size_t axis = 0;
-        while (from[axis] == to[axis]) ++axis;
-        SidePart part;
-        part.facet = index;
-        part.side = k;
-        part.line = {std::min(facet.plane, facet.side_planes[k]),
-                     std::max(facet.plane, facet.side_planes[k])};
-        part.plane = facet.plane;
-        part.forward = from[axis] < to[axis];
-        part.lo = std::move((part.forward ? from : to)[axis]);
-        part.hi = std::move((part.forward ? to : from)[axis]);
-        parts.push_back(std::move(part));
-      }
-    }
-    std::sort(parts.begin(), parts.end(), [](const SidePart& a, const SidePart& b) {
-      return a.chain() != b.chain() ? a.chain() < b.chain() : a.lo < b.lo;
-    });
-    return parts;
-  }
-
   /// The facets on both sides of a line cover the same of it, in different parts. So what lies
   /// behind equally many crossings from where they begin is the same gap between crossings; all
   /// faces at a gap belong together.
   void join_along_lines(int first_gap) {
     next_node_ = first_gap;
     std::map<std::tuple<std::array<int, 2>, Rational, int>, int> node_of_gap;
-    const std::vector<SidePart> parts = side_parts();
     int crossings = 0;
+    const SidePart* before = nullptr;
     const Rational* begin = nullptr;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      const SidePart& part = parts[k];
-      if (k == 0 || part.chain() != parts[k - 1].chain() || part.lo != parts[k - 1].hi) {
+    for (const SidePart& part : boundary_.side_parts()) {
+      if (first_node_.count(part.facet) == 0) continue;
+      if (!before || part.chain() != before->chain() || part.lo != before->hi) {
         crossings = 0;
         begin = &part.lo;
       }
+      before = &part;
       const auto gaps = nodes_along(part);
       for (std::size_t g = 0; g < gaps.size(); ++g) {
         const auto [gap, is_new] = node_of_gap.try_emplace(
@@ -172,7 +148,6 @@ class SignComponents {
   }
 
   const CellBoundary& boundary_;
-  PlaneCharts& charts_;
   int surface_;
   std::vector<int> facets_;
   std::map<int, int> first_node_;
@@ -239,7 +214,32 @@ std::optional<std::vector<BoundaryLoop>> CellBoundary::loops(int surface) const 
 
 int CellBoundary::components(int surface, Sign sign,
                              const std::function<bool(int)>& is_included) const {
-  return SignComponents(*this, complex_.charts, surface, is_included).count(sign);
+  return SignComponents(*this, surface, is_included).count(sign);
+}
+
+const std::vector<SidePart>& CellBoundary::side_parts() const {
+  if (!side_parts_.empty()) return side_parts_;
+  for (const int index : facets_) {
+    const Facet& f = facet(index);
+    const auto& corners = f.polygon.corners;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      auto [from, to] =
+          ends_of_side(complex_.charts.of(f.plane), corners[k], corners[(k + 1) % corners.size()]);
+      SidePart part;
+      part.facet = index;
+      part.side = static_cast<int>(k);
+      part.line = {std::min(f.plane, f.side_planes[k]), std::max(f.plane, f.side_planes[k])};
+      part.plane = f.plane;
+      part.forward = from < to;
+      part.lo = std::move(part.forward ? from : to);
+      part.hi = std::move(part.forward ? to : from);
+      side_parts_.push_back(std::move(part));
+    }
+  }
+  std::sort(side_parts_.begin(), side_parts_.end(), [](const SidePart& a, const SidePart& b) {
+    return a.chain() != b.chain() ? a.chain() < b.chain() : a.lo < b.lo;
+  });
+  return side_parts_;
 }
 
 Sign CellBoundary::sign_at_corner(int surface, int index) const {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "3d/facet_places.hpp"
@@ -24,6 +26,19 @@ struct FacetComplex {
 struct BoundaryLoop {
   std::vector<FacetEdge> edges;
   std::vector<int> points;  ///< where each edge begins, in `facet_points`; -1 without vertices
+};
+
+/// A facet's side: a part of the common line of two planes.
+struct SidePart {
+  int facet = -1;
+  int side = 0;
+  std::array<int, 2> line{};  ///< its planes, ascending
+  int plane = -1;             ///< the facet's
+  bool forward = false;       ///< the line's coordinate grows along the side
+  Rational lo, hi;            ///< of the coordinate: the first that changes along the line
+
+  /// Parts of equal chains follow each other along the line, and do not overlap.
+  auto chain() const { return std::tuple(line, plane, forward); }
 };
 
 /// The boundary of a cell: a sphere made of its facets.
@@ -48,6 +63,9 @@ class CellBoundary {
   /// disc or the whole boundary, where a surface's function has a sign.
   int components(int surface, Sign sign, const std::function<bool(int facet)>& is_included) const;
 
+  /// The sides of all facets, chain by chain in the order of the coordinate. Made when first asked.
+  const std::vector<SidePart>& side_parts() const;
+
   /// The sign of a function at a corner of the boundary, which is no zero of a surface that the
   /// facet has.
   Sign sign_at_corner(int surface, int facet) const;
@@ -56,6 +74,7 @@ class CellBoundary {
   const FacetComplex& complex_;
   int cell_;
   const std::vector<int>& facets_;
+  mutable std::vector<SidePart> side_parts_;
 };
 
 }  // namespace encase

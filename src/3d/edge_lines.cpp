@@ -2,6 +2,7 @@
 #include "3d/edge_lines.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -179,12 +180,13 @@ class PointNumbering {
       return chart.lift(at);
     };
     const FilteredFunction<3>& f = surfaces_[static_cast<std::size_t>(s.surface)];
-    double lo = crossing.lo, hi = crossing.hi;
+    double lo = crossing.lo, hi = crossing.hi, t = lo + 0.5 * (hi - lo);
     double at_lo = f.approximate(point(lo)), at_hi = f.approximate(point(hi));
     constexpr int kSteps = 40;
     for (int step = 0; step < kSteps && at_lo * at_hi < 0; ++step) {
-      const double t = lo + (hi - lo) * (at_lo / (at_lo - at_hi));
-      if (!(lo < t && t < hi)) break;
+      const double next = lo + (hi - lo) * (at_lo / (at_lo - at_hi));
+      if (!(lo < next && next < hi) || std::fabs(next - t) < 0x1p-50 * std::fabs(t)) break;
+      t = next;
       const double value = f.approximate(point(t));
       // An end that stays counts for less and less.
       if (value * at_lo > 0) {
@@ -197,7 +199,7 @@ class PointNumbering {
         at_lo *= 0.5;
       }
     }
-    return point(lo + 0.5 * (hi - lo));
+    return point(t);
   }
 
   const std::vector<FilteredFunction<3>>& surfaces_;
