@@ -12,7 +12,6 @@ std::optional<PairCriticalPoints> pair_critical_points(
     const SubdivisionLimits& limits, Kernel& kernel) {
   if (!f.is_polynomial() || !g.is_polynomial()) return std::nullopt;
   const auto direction = arc_direction(f.polynomial().exact(), g.polynomial().exact(), w);
-  if (direction->is_zero()) return std::nullopt;
   PairCriticalPoints result{FilteredFunction<3>(*direction), {}};
   const System<3> system{&f, &g, &result.direction};
   result.points = isolate_roots<3>(system, box, half_spaces, limits, kernel);

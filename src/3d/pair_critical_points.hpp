@@ -21,10 +21,9 @@ struct PairCriticalPoints {
 };
 
 /// Isolates them in the part of `box` that lies on the negative side of every half space. Nothing
-/// if f or g is no polynomial, or their gradients are parallel everywhere. Where `direction`
-/// vanishes on a whole arc of the curve (w is at right angles to it), or at singular points of it,
-/// boxes stay unresolved. Cost: an exact product, then isolate_roots<3> for degrees m, n and m + n
-/// - 2.
+/// if f or g is no polynomial. Where `direction` vanishes on a whole arc of the curve (w is at
+/// right angles to it), or at singular points of it, boxes stay unresolved. Cost: an exact product,
+/// then isolate_roots<3> for degrees m, n and m + n - 2.
 std::optional<PairCriticalPoints> pair_critical_points(
     const FilteredFunction<3>& f, const FilteredFunction<3>& g, const Point<3>& w,
     const Box<3>& box, const std::vector<Hyperplane<3>>& half_spaces,

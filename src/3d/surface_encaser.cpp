@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <set>
 
+#include "3d/arc_direction.hpp"
 #include "3d/edge_lines.hpp"
 #include "3d/pair_critical_points.hpp"
 #include "3d/solid_region.hpp"
@@ -140,6 +141,33 @@ bool SurfaceEncaser::add_triple_points(RootIsolation<3> roots, const std::array<
   return is_generic;
 }
 
+/// Whether the gradients of two surfaces are parallel everywhere, as those of concentric spheres:
+/// then every common point is critical.
+bool SurfaceEncaser::gradients_are_parallel(int f, int g) const {
+  const auto at = [&](int s) -> const Surface& {
+    return result_.surfaces[static_cast<std::size_t>(s)];
+  };
+  const Point<3> center = region_.polyhedron.bounding_box().center();
+  const Point<3> p = generic_direction(0), x{center[0] + p[0], center[1] + p[1], center[2] + p[2]},
+                 a = surfaces_[static_cast<std::size_t>(f)].gradient(x),
+                 b = surfaces_[static_cast<std::size_t>(g)].gradient(x);
+  // Nearly always one point tells that they are not.
+  double cross = 0, size = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    cross = std::max(cross, std::fabs(a[j] * b[k] - a[k] * b[j]));
+    size = std::max(size, std::fabs(a[j] * b[k]) + std::fabs(a[k] * b[j]));
+  }
+  if (cross > 1e-9 * size) return false;
+  for (int i = 0; i < 3; ++i) {
+    Point<3> axis{};
+    axis[static_cast<std::size_t>(i)] = 1;
+    const auto along = arc_direction(at(f).function, at(g).function, axis);
+    if (!along || !along->is_zero()) return false;
+  }
+  return true;
+}
+
 void SurfaceEncaser::isolate_critical_points() {
   result_.critical_points.clear();
   directions_.clear();
@@ -155,6 +183,7 @@ void SurfaceEncaser::isolate_critical_points() {
 
 /// Whether another direction may serve where this one does not.
 bool SurfaceEncaser::isolate_critical_points(int f, int g, const Point<3>& w) {
+  if (gradients_are_parallel(f, g)) return false;
   auto found = pair_critical_points(
       surfaces_[static_cast<std::size_t>(f)], surfaces_[static_cast<std::size_t>(g)], w,
       region_.polyhedron.bounding_box(), sides_, limits("isolating critical points"), kernel_);
@@ -209,7 +238,10 @@ void SurfaceEncaser::encase_facets() {
   facets_.clear();
   const auto& leaves = partition_->leaves();
   cells_.resize(leaves.size());
-  for (Cell& cell : cells_) cell.facets.clear();
+  for (Cell& cell : cells_) {
+    cell.facets.clear();
+    cell.is_current = false;
+  }
   const auto is_open = [&](int cell) {
     return cell < 0 || leaves[static_cast<std::size_t>(cell)].state != CellState::Certified ||
            cells_[static_cast<std::size_t>(cell)].trouble;
@@ -259,7 +291,6 @@ void SurfaceEncaser::leave(int index, Outcome outcome, std::string reason) {
 }
 
 bool SurfaceEncaser::read_all() {
-  const auto& leaves = partition_->leaves();
   std::vector<const Facet*> facets;
   for (const EncasedFacet& encased : facets_) facets.push_back(&encased.facet);
   const FacetComplex complex{surfaces_, partition_->planes(), facets, encaser_->charts(), kernel_};
@@ -270,31 +301,43 @@ bool SurfaceEncaser::read_all() {
                            partition_->graphs(),
                            partition_->pairs(),
                            directions_};
-  std::vector<int> ambiguous;
-  for (std::size_t k = 0; k < leaves.size(); ++k) {
-    Cell& cell = cells_[k];
-    const int index = static_cast<int>(k);
-    if (cell.trouble || leaves[k].state != CellState::Certified) continue;
-    const auto failed = std::find_if(cell.facets.begin(), cell.facets.end(), [&](int f) {
-      return facets_[static_cast<std::size_t>(f)].trouble.has_value();
-    });
-    if (failed != cell.facets.end()) {
-      const FacetTrouble& trouble = *facets_[static_cast<std::size_t>(*failed)].trouble;
-      leave(index, trouble.outcome, trouble.reason);
-      continue;
+  const int n = static_cast<int>(cells_.size());
+  for (int k = 0; k < n; ++k)
+    if (!cells_[static_cast<std::size_t>(k)].is_settled) read(scene, k);
+  if (split_ambiguous()) return false;
+  for (int k = 0; k < n; ++k)
+    if (!cells_[static_cast<std::size_t>(k)].is_current) read(scene, k);
+  return !split_ambiguous();
+}
+
+void SurfaceEncaser::read(const ReadingScene& scene, int index) {
+  Cell& cell = cells_[static_cast<std::size_t>(index)];
+  const SpacePartition::Leaf& leaf = partition_->leaves()[static_cast<std::size_t>(index)];
+  cell.is_settled = cell.is_current = true;
+  if (cell.trouble || leaf.state != CellState::Certified) return;
+  for (const int f : cell.facets)
+    if (const auto& trouble = facets_[static_cast<std::size_t>(f)].trouble) {
+      leave(index, trouble->outcome, trouble->reason);
+      return;
     }
-    cell.reading = read_cell(scene, index, leaves[k], cell.facets);
-    if (cell.reading.kind == Reading::Kind::Ambiguous) ambiguous.push_back(index);
-    if (cell.reading.kind == Reading::Kind::Inconsistent)
-      leave(index, Outcome::Undecided, cell.reading.reason);
-  }
-  for (const int index : ambiguous) {
-    const Reading reading = cells_[static_cast<std::size_t>(index)].reading;
+  cell.reading = read_cell(scene, index, leaf, cell.facets);
+  if (cell.reading.kind == Reading::Kind::Ambiguous) cell.is_settled = false;
+  if (cell.reading.kind == Reading::Kind::Inconsistent)
+    leave(index, Outcome::Undecided, cell.reading.reason);
+}
+
+bool SurfaceEncaser::split_ambiguous() {
+  bool any = false;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    if (cells_[k].is_settled) continue;
+    any = true;
+    const int index = static_cast<int>(k);
+    const Reading reading = cells_[k].reading;
     ++result_.statistics.splits_after_reading;
     if (out_of_budget() || !partition_->split(index, reading.hint))
       leave(index, Outcome::Undecided, reading.reason);
   }
-  return ambiguous.empty();
+  return any;
 }
 
 }  // namespace encase

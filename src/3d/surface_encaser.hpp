@@ -46,9 +46,13 @@ class SurfaceEncaser {
                     const std::string& diagnosis);
   bool add_triple_points(RootIsolation<3> roots, const std::array<int, 3>& surfaces);
   bool isolate_critical_points(int f, int g, const Point<3>& w);
+  bool gradients_are_parallel(int f, int g) const;
   void encase_facets();
-  /// Reads all cells; false if some were ambiguous and have been split.
+  /// Reads all cells, those first that were not read before; false if some were ambiguous and have
+  /// been split.
   bool read_all();
+  void read(const ReadingScene& scene, int cell);
+  bool split_ambiguous();
   bool facets_fail() const;
   void leave(int cell, Outcome outcome, std::string reason);
   struct Diagnosis {
@@ -64,6 +68,8 @@ class SurfaceEncaser {
   /// What became of a leaf.
   struct Cell {
     Reading reading;
+    bool is_settled = false;  ///< was read, and was not ambiguous
+    bool is_current = false;  ///< was read from the facets as they are numbered now
     std::vector<int> facets;
     std::optional<Outcome> trouble;  ///< Degenerate or Undecided: it is not certified
     std::string reason;

@@ -229,6 +229,27 @@ TEST(SurfaceEncasement, ASingularPointIsDegenerateWithItsBox) {
   EXPECT_TRUE(proof.ok()) << proof.objections.front();
 }
 
+TEST(SurfaceEncasement, ContactsAreDegenerateWithTheirBoxes) {
+  // Spheres that touch in (1, 0, 0), and cylinders of equal radii: their curve crosses itself
+  // twice.
+  const auto spheres = encase({surface("a", kSphere), surface("b", "(x-2)^2+y^2+z^2-1")}, cube(3));
+  const auto cylinders =
+      encase({surface("a", "x^2+y^2-1/4"), surface("b", "x^2+z^2-1/4")}, cube(Rational(3, 2)));
+  std::size_t places = 1;
+  for (const auto* result : {&spheres, &cylinders}) {
+    ASSERT_TRUE(*result);
+    const SurfaceEncasement& e = result->value();
+    EXPECT_EQ(e.outcome, Outcome::Degenerate);
+    EXPECT_EQ(e.degenerate.size(), places++);
+    for (const UnresolvedInSpace& place : e.degenerate) {
+      EXPECT_EQ(place.kind, Unresolved::Kind::Contact);
+      EXPECT_LT(place.box.largest_width(), 1e-6);
+    }
+    const Verification proof = verify(e);
+    EXPECT_TRUE(proof.ok()) << proof.objections.front();
+  }
+}
+
 TEST(SurfaceEncasement, IsTheSameEveryTime) {
   const std::vector<NamedSurface> surfaces{surface("a", kTorus), surface("b", "x+y/3+z/5-1/2")};
   const SurfaceEncasement first = certified_scene(surfaces, cube(4)),
