@@ -15,8 +15,7 @@ std::string to_json(const SurfaceEncasement& encasement);
 /// Reads what `to_json` wrote. Every index refers to something that is there and every number is
 /// within what Encase accepts; that the result is right is for `verify` to say. BadInput otherwise,
 /// with the file's name and the place in it. Never crashes, whatever the text.
-Result<SurfaceEncasement> surfaces_from_json(const std::string& text,
-                                             const std::string& file_name);
+Result<SurfaceEncasement> surfaces_from_json(const std::string& text, const std::string& file_name);
 
 /// One JSON object on one line: status, surfaces (encased), points (common to three of them),
 /// intersection_curves, closed_curves (those among them without ends), cells, euler and components

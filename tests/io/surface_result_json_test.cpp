@@ -11,7 +11,9 @@
 namespace encase {
 namespace {
 
-SurfaceEncasement sample() { return encased_surfaces({"x^2+y^2+z^2-1", "z-1/3", "x-y/5-1/10"}, 2); }
+SurfaceEncasement sample() {
+  return encased_surfaces({"x^2+y^2+z^2-1", "z-x/7-1/9", "x-y/5-1/10"}, 2);
+}
 
 TEST(SurfaceResultJson, ReadsBackTheSameBytes) {
   const std::string text = to_json(sample());
