@@ -209,7 +209,7 @@ void PatchMesh::flip(int t, int edge) {
 /// Flips edges whose opposite angles in the chart add up to more than pi; for certain only a
 /// bounded number of times.
 void PatchMesh::make_delaunay(std::vector<int> work, std::vector<int>* changed) {
-  std::size_t left = 16 + 8 * work.size();
+  std::size_t left = 4096 + 64 * work.size();
   while (!work.empty() && left > 0) {
     const int t = work.back();
     work.pop_back();

@@ -18,7 +18,7 @@ namespace encase {
 namespace {
 
 /// How often boundaries are refined where patches need it.
-constexpr int kMaxRounds = 14;
+constexpr int kMaxRounds = 32;
 
 class Mesher {
  public:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "3d/space_vectors.hpp"
@@ -56,6 +57,25 @@ TEST(ArcTracer, FollowsACircleWithinTheTolerance) {
   }
 }
 
+TEST(ArcTracer, NoToleranceNeedsProofsNevertheless) {
+  Scene scene("x^2+y^2-1", "z");
+  ArcTracer coarse(scene.bounds_f, scene.bounds_g, 100, scene.kernel);  // begins with long steps
+  const Point<3> end{-std::sqrt(0.75), 0.5, 0};
+  const double infinity = std::numeric_limits<double>::infinity();
+  const SpacePath path =
+      coarse.trace(exact({1, 0, 0}), {end, inflated({end, end}, 1e-15)}, -1, infinity, 1000);
+  EXPECT_LT(path.points.size(), 20u);
+  double turned = 0;
+  for (std::size_t k = 0; k + 1 < path.points.size(); ++k) {
+    const Point<3>&p = path.points[k].point, &q = path.points[k + 1].point;
+    const double angle = std::acos(std::min(1.0, dot(p, q)));
+    turned += angle;
+    EXPECT_GE(path.distances[k], 1 - std::cos(angle / 2));
+    EXPECT_LT(path.distances[k], 1);
+  }
+  EXPECT_NEAR(turned, M_PI * 5 / 6, 1e-9);
+}
+
 TEST(ArcTracer, BoxesHoldThePointsOfTheCurve) {
   Scene scene("x^2+y^2+z^2-4", "x-y*y/3");
   const Point<3> start{0, 0, 2};
@@ -82,7 +102,8 @@ TEST(ArcTracer, DoesNotPassThroughASingularPoint) {
 TEST(ArcTracer, RefusesToGoAgainstItsSense) {
   Scene scene("y", "z");  // grad f x grad g = (1, 0, 0)
   const auto way = [&](int sense) {
-    return scene.tracer.trace(exact({0, 0, 0}), exact({1, 0, 0}), sense, 1e-3, 1000);
+    // Near enough to be one piece.
+    return scene.tracer.trace(exact({0, 0, 0}), exact({0.1, 0, 0}), sense, 1e-3, 1000);
   };
   EXPECT_LE(largest(way(1)), 1e-3);
   EXPECT_TRUE(std::isinf(largest(way(-1))));

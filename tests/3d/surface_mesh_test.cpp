@@ -48,7 +48,7 @@ TEST(SurfaceMesh, OfASphereIsClosedAndWithinTheTolerance) {
 }
 
 TEST(SurfaceMesh, OfSurfacesCutByOthersIsGlued) {
-  const SurfaceEncasement e = encased_surfaces({"x^2+y^2+z^2-1", "z-1/3", "x-y^2/3"}, 2);
+  const SurfaceEncasement e = encased_surfaces({"x^2+y^2+z^2-1", "z-x/7-1/9", "x-y^2/3+z/9"}, 2);
   const auto shapes = surface_topology(e);
   EXPECT_EQ(shapes[0].euler, 2);
   EXPECT_EQ(shapes[1].euler, 1);
@@ -61,7 +61,8 @@ TEST(SurfaceMesh, OfSurfacesCutByOthersIsGlued) {
     EXPECT_EQ(shapes[k].components, 1);
   }
   EXPECT_NEAR(area(meshes[0]), 4 * M_PI, 0.1);
-  EXPECT_NEAR(area(meshes[1]), 16, 1e-6);
+  // A plane over a square: x grows by 7 for each 1 of z.
+  EXPECT_NEAR(area(meshes[1]), 16 * std::sqrt(1 + 1.0 / 49), 1e-6);
 }
 
 TEST(CheckMesh, ObjectsToWhatIsChanged) {

@@ -11,14 +11,16 @@
 namespace encase {
 namespace {
 
-SurfaceEncasement sample() { return encased_surfaces({"x^2+y^2+z^2-1", "z-1/3", "x-y/5-1/10"}, 2); }
+SurfaceEncasement sample() {
+  return encased_surfaces({"x^2+y^2+z^2-1", "z-x/7-1/9", "x-y/5-1/10"}, 2);
+}
 
 TEST(SurfaceResultJson, ReadsBackTheSameBytes) {
   const std::string text = to_json(sample());
   const auto read = surfaces_from_json(text, "sample.json");
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(to_json(read.value()), text);
-  EXPECT_EQ(read.value().triple_points.size(), 2u);
+  EXPECT_EQ(to_json(read.value().encasement), text);
+  EXPECT_EQ(read.value().encasement.triple_points.size(), 2u);
 }
 
 TEST(SurfaceResultJson, RefusesWhatRefersToNothing) {

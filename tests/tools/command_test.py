@@ -689,6 +689,43 @@ class Analytic(CommandTest):
         self.encased(encase("curves", "-e", "y = x/3", "--onto", path, "-q"), 3)
 
 
+class Surfaces(CommandTest):
+    SCENE = ["-e", "x^2+y^2+z^2-1", "-e", "z = 1/3", "--region", "box -2 2 -2 2 -2 2"]
+
+    def test_summary(self):
+        run = encase("surfaces", *self.SCENE, "--summary")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        summary = json.loads(run.stdout)
+        seconds = summary.pop("seconds")
+        self.assertGreater(seconds, 0)
+        self.assertGreater(summary.pop("cells"), 1)
+        self.assertEqual(summary, {"status": "certified", "surfaces": 2, "points": 0,
+                                   "intersection_curves": 1, "closed_curves": 1,
+                                   "euler": [2, 1], "components": [1, 1]})
+
+    def test_files(self):
+        files = {name: self.path(name) for name in ("s.json", "s.off", "vtk")}
+        run = encase("surfaces", *self.SCENE, "--json", files["s.json"], "--mesh", files["s.off"],
+                     "-o", files["vtk"], "--tolerance", "0.01")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("intersection curves", run.stdout)
+        self.assertIn("Euler characteristic 2", run.stdout)
+        with open(files["s.json"]) as file:
+            self.assertEqual(json.load(file)["command"], "surfaces")
+        with open(files["s.off"]) as file:
+            self.assertTrue(file.readline().endswith("OFF\n"))
+        self.assertTrue(os.path.exists(os.path.join(files["vtk"], "result.vtm")))
+
+    def test_usage(self):
+        self.refused(encase("surfaces"), 1, "FILE of surfaces")
+        self.refused(encase("surfaces", "-e", "x"), 1, "no region")
+        self.refused(encase("surfaces", *self.SCENE, "--history"), 1, "--history")
+        self.refused(encase("surfaces", *self.SCENE, "--mesh", self.path("a.stl")), 1, ".ply")
+        self.refused(encase("surfaces", *self.SCENE, "--tolerance", "-1"), 1, "tolerance")
+        self.refused(encase("surfaces", *self.SCENE, "--json", "-", "--summary"), 1, "only one")
+        self.refused(encase("surfaces", "missing.surfaces"), 2, "missing.surfaces")
+
+
 class Slice(CommandTest):
     TORUS = ["-e", "(x^2+y^2+z^2+3)^2 - 16(x^2+y^2)", "--region", "box -4 4 -4 4 -4 4"]
 

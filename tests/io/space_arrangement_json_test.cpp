@@ -32,7 +32,7 @@ const Scene& scene() {
   return made;
 }
 
-TEST(SurfacesJson, IsReadBackToTheSameResult) {
+TEST(SpaceArrangementJson, IsReadBackAndProvedAgain) {
   const std::string text = to_json(scene().encasement, &scene().arrangement);
   const auto stored = surfaces_from_json(text, "file");
   ASSERT_TRUE(stored) << stored.error().message;
@@ -43,22 +43,14 @@ TEST(SurfacesJson, IsReadBackToTheSameResult) {
   EXPECT_TRUE(again.ok()) << again.objections.front();
 }
 
-TEST(SurfacesJson, NeedsNoArrangement) {
-  const std::string text = to_json(scene().encasement);
-  const auto stored = surfaces_from_json(text, "file");
-  ASSERT_TRUE(stored) << stored.error().message;
-  EXPECT_FALSE(stored.value().arrangement);
-  EXPECT_EQ(to_json(stored.value().encasement), text);
-}
-
-TEST(SurfacesJson, IsToldFromOtherResults) {
+TEST(SpaceArrangementJson, IsToldFromOtherResults) {
   const auto any = any_result_from_json(to_json(scene().encasement), "file");
   ASSERT_TRUE(any) << any.error().message;
   EXPECT_TRUE(std::holds_alternative<StoredSurfaces>(any.value()));
   EXPECT_FALSE(result_from_json(to_json(scene().encasement), "file"));
 }
 
-TEST(SurfacesJson, AChangedArrangementIsRefused) {
+TEST(SpaceArrangementJson, AChangedArrangementIsRefused) {
   const auto refused = [](const SpaceArrangement& changed) {
     return !verify(scene().encasement, changed).ok();
   };
@@ -83,7 +75,7 @@ TEST(SurfacesJson, AChangedArrangementIsRefused) {
   EXPECT_TRUE(refused(a));
 }
 
-TEST(SurfacesJson, SurvivesDamage) {
+TEST(SpaceArrangementJson, SurvivesDamage) {
   const std::string text = to_json(scene().encasement, &scene().arrangement);
   std::mt19937_64 random(3);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
