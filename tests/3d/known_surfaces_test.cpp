@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "encase/space_arrangement.hpp"
+#include "encase/surface_encasement.hpp"
+#include "encase/surface_topology.hpp"
+#include "encase/surfaces_file.hpp"
+#include "tetrahedra.hpp"
+#include "written.hpp"
+
+namespace encase {
+namespace {
+
+SurfaceEncasement encased(const SurfacesFile& file, const SurfaceOptions& options = {}) {
+  auto result = encase(file.surfaces, *file.region, options);
+  EXPECT_TRUE(result) << result.error().message;
+  const Verification proof = verify(result.value());
+  EXPECT_TRUE(proof.ok()) << proof.objections.front();
+  return std::move(result).value();
+}
+
+SurfacesFile from_file(const std::string& name) {
+  auto file = load_surfaces(std::string(ENCASE_TEST_DATA) + "/surfaces/" + name + ".surfaces");
+  EXPECT_TRUE(file) << file.error().message;
+  return std::move(file).value();
+}
+
+/// The one surface of the file, certified: its components and its Euler characteristic, which is
+/// that of a grid of tetrahedra too.
+SurfaceTopology shape_of(const SurfacesFile& file, int grid) {
+  const SurfaceEncasement e = encased(file);
+  EXPECT_EQ(e.outcome, Outcome::Certified);
+  const SurfaceTopology shape = surface_topology(e)[0];
+  const auto arrangement = arrange(e);
+  EXPECT_TRUE(arrangement);
+  int euler = 0;
+  for (const auto& component : arrangement.value().components) euler += component.euler;
+  EXPECT_EQ(euler, shape.euler);
+  EXPECT_EQ(static_cast<int>(arrangement.value().components.size()), shape.components);
+  EXPECT_EQ(euler_by_tetrahedra(file.surfaces[0].function.polynomial(),
+                                e.region_used.bounding_box(), grid),
+            shape.euler);
+  return shape;
+}
+
+TEST(KnownSurfaces, ClebschsCubicIsOnePieceOfCharacteristicMinusTwo) {
+  const SurfaceTopology shape = shape_of(from_file("clebsch"), 151);
+  EXPECT_EQ(shape.components, 1);
+  EXPECT_EQ(shape.euler, -2);
+}
+
+TEST(KnownSurfaces, ATorusWithTwoHolesHasCharacteristicMinusTwo) {
+  const SurfacesFile file{
+      {{"two holes", written::polynomial<3>("(x*(x-1)^2*(x-2)+y^2)^2+z^2-1/100")}},
+      make_box({-1, -2, -1}, {3, 2, 1}).value()};
+  const SurfaceTopology shape = shape_of(file, 101);
+  EXPECT_EQ(shape.components, 1);
+  EXPECT_EQ(shape.euler, -2);
+  EXPECT_EQ(shape.boundary_loops, 0);
+}
+
+/// Surfaces with singular curves: what is singular is reported within the budget, and the rest is
+/// certified.
+TEST(KnownSurfaces, SingularCurvesAreReportedWithinTheBudget) {
+  SurfaceOptions options;
+  options.max_cells = 2000;
+  for (const char* name : {"steiner_roman", "hunt"}) {
+    const SurfaceEncasement e = encased(from_file(name), options);
+    EXPECT_NE(e.outcome, Outcome::Certified) << name;
+    EXPECT_FALSE(e.degenerate.empty() && e.undecided.empty()) << name;
+    std::size_t certified = 0;
+    for (const SpaceCell& cell : e.cells) certified += cell.state == CellState::Certified;
+    EXPECT_GT(certified, e.cells.size() / 4) << name;
+    EXPECT_LE(e.cells.size(), 2000u) << name;
+  }
+}
+
+TEST(KnownSurfaces, ATorusAndFourSpheresAreDivided) {
+  const SurfaceEncasement e = encased(from_file("torus_2spheres"));
+  EXPECT_EQ(e.outcome, Outcome::Certified);
+  const auto shapes = surface_topology(e);
+  ASSERT_EQ(shapes.size(), 5u);
+  EXPECT_EQ(shapes[0].euler, 0);
+  for (std::size_t k = 1; k < 5; ++k) EXPECT_EQ(shapes[k].euler, 2);
+  EXPECT_TRUE(arrange(e));
+}
+
+}  // namespace
+}  // namespace encase
