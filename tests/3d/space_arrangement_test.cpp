@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <random>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "common/random_polynomials.hpp"
 #include "flood_fill.hpp"
 #include "written.hpp"
 
@@ -114,6 +116,47 @@ INSTANTIATE_TEST_SUITE_P(
                           "3",
                           16}),
     [](const auto& scene) { return scene.param.name; });
+
+/// Random surfaces have regions thinner than the grid: every part of the grid that is not thin lies
+/// in a region of its own.
+TEST(SpaceArrangement, OfRandomTriplesAgreesWithAFloodFill) {
+  for (const int degree : {2, 3, 4})
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      RandomOptions random;
+      random.degree = degree;
+      random.count = 3;
+      random.seed = seed;
+      std::vector<NamedSurface> surfaces;
+      const auto polynomials = random_polynomials<3>(random);
+      for (const Polynomial<3>& f : polynomials) surfaces.push_back({"s", f});
+      const auto e = encase(surfaces, make_box({-1, -1, -1}, {1, 1, 1}).value());
+      ASSERT_TRUE(e);
+      ASSERT_EQ(e.value().outcome, Outcome::Certified) << degree << ' ' << seed;
+      const auto arrangement = arrange(e.value());
+      ASSERT_TRUE(arrangement) << arrangement.error().message;
+      const RegionLocator locator(e.value(), arrangement.value());
+      const FloodFill fill(polynomials, 1, 120);
+      std::set<int> found;
+      std::size_t thin = 0;
+      for (const auto& part : fill.parts()) {
+        const auto place = locator.locate(part.deepest);
+        ASSERT_EQ(place.kind, RegionLocator::Place::Kind::Region);
+        EXPECT_EQ(arrangement.value().regions[place.region].signs, part.signs);
+        const bool fresh = found.insert(place.region).second;
+        if (part.depth < 2)
+          ++thin;
+        else
+          EXPECT_TRUE(fresh) << degree << ' ' << seed << ": region " << place.region;
+      }
+      // What the grid does not see, or sees in grains.
+      const std::size_t missed = arrangement.value().regions.size() - found.size();
+      std::printf(
+          "degree %d, seed %d: %zu regions, %zu parts of the grid (%zu thin), %zu not seen\n",
+          degree, static_cast<int>(seed), arrangement.value().regions.size(), fill.parts().size(),
+          thin, missed);
+      EXPECT_LE(missed, 3u) << degree << ' ' << seed;
+    }
+}
 
 TEST(SpaceArrangement, ComponentsHaveTheEulerCharacteristicOfTheirSurface) {
   const Arranged sphere = arranged({kSphere}, 2);
