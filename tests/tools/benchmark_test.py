@@ -81,6 +81,14 @@ class ShortRun(unittest.TestCase):
             for column in ("floor us", "ms", "floors", "with setup ms", "ms for them"):
                 self.assertGreater(row[column], 0, column)
 
+    def test_encasements_in_space_are_certified_and_proved_again(self):
+        self.assertEqual([row["degree"] for row in self.tables["surfaces"]], [2, 3])
+        for row in self.tables["surfaces"]:
+            self.assertEqual((row["certified"], row["verified"]), ("all", "all"))
+            self.assertGreater(row["cells"], 0)
+            for column in ("encasement ms", "arrangement ms", "curves to 1e-3 ms"):
+                self.assertGreater(row[column], 0, column)
+
     def test_all_files_of_the_directory_are_encased(self):
         rows = {row["curves"]: row for row in self.tables["files"] if row["setting"] == "default"}
         self.assertEqual(rows["haas_drrs_sparse"]["outcome"], "certified")

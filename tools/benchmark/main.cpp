@@ -46,6 +46,7 @@ const std::vector<Section>& sections() {
       {"tangencies", [](RandomPairs&, const Request& r) { return near_tangency_table(r); }},
       {"caps", [](RandomPairs&, const Request& r) { return caps_table(r); }},
       {"space", [](RandomPairs&, const Request& r) { return space_table(r); }},
+      {"surfaces", [](RandomPairs&, const Request& r) { return surfaces_table(r); }},
       {"locality", [](RandomPairs&, const Request& r) { return locality_table(r); }},
       {"growth", growth_table},
       {"arcs", [](RandomPairs&, const Request& r) { return arcs_table(r); }},

@@ -6,6 +6,8 @@
 #include "3d/pair_critical_points.hpp"
 #include "common/isolate_roots.hpp"
 #include "common/random_polynomials.hpp"
+#include "encase/intersection_curves.hpp"
+#include "encase/space_arrangement.hpp"
 #include "space_floor.hpp"
 #include "tables.hpp"
 
@@ -118,6 +120,60 @@ Table space_table(const Request& request) {
                median(floors), median(with_setup),
                std::string(rounded == all ? "all" : std::to_string(all - rounded) + " not"),
                unresolved, span_of(critical), span_of(critical_boxes), median(critical_ms)});
+  }
+  return table;
+}
+
+Table surfaces_table(const Request& request) {
+  Table table{
+      "surfaces",
+      "Random triples of surfaces in [-1,1]^3: the whole encasement, and what is made of it",
+      {"degree", "certified", "cells", "facets encased", "points", "curves", "closed", "regions",
+       "encasement ms", "arrangement ms", "curves to 1e-3 ms", "verified", "verification ms"},
+      {}};
+  constexpr int kHighestEncased = 5;
+  const Polyhedron cube = make_box({-1, -1, -1}, {1, 1, 1}).value();
+  const int highest = request.degrees.empty()
+                          ? 0
+                          : std::min(kHighestEncased, *std::max_element(request.degrees.begin(),
+                                                                        request.degrees.end()));
+  for (int degree = 2; degree <= highest; ++degree) {
+    std::vector<int> cells, facets, points, curves, closed, regions;
+    std::vector<double> encasement_ms, arrangement_ms, curves_ms, verification_ms;
+    std::int64_t certified = 0, verified = 0;
+    for (const std::uint64_t seed : request.seeds) {
+      std::vector<NamedSurface> surfaces;
+      for (const Polynomial<3>& f : random_triple(degree, seed)) surfaces.push_back({"s", f});
+      SurfaceEncasement e;
+      encasement_ms.push_back(
+          kMilli * time_of(request.repetitions, [&] { e = encase(surfaces, cube).value(); }));
+      cells.push_back(static_cast<int>(e.cells.size()));
+      facets.push_back(static_cast<int>(e.statistics.facets_encased));
+      points.push_back(static_cast<int>(e.triple_points.size()));
+      const auto found = intersection_curves(e);
+      curves.push_back(static_cast<int>(found.size()));
+      closed.push_back(static_cast<int>(std::count_if(
+          found.begin(), found.end(), [](const IntersectionCurve& c) { return c.closed; })));
+      bool proved = false;
+      verification_ms.push_back(kMilli * time_of({1, 0}, [&] { proved = verify(e).ok(); }));
+      verified += proved;
+      if (e.outcome != Outcome::Certified) continue;
+      ++certified;
+      arrangement_ms.push_back(kMilli * time_of(request.repetitions, [&] {
+                                 regions.resize(certified);
+                                 regions.back() =
+                                     static_cast<int>(arrange(e).value().regions.size());
+                               }));
+      curves_ms.push_back(kMilli * time_of(request.repetitions, [&] { trace(e).value(); }));
+    }
+    const auto count = static_cast<std::int64_t>(request.seeds.size());
+    const auto of_all = [&](std::int64_t part) {
+      return std::string(part == count ? "all" : std::to_string(part));
+    };
+    table.add({std::int64_t{degree}, of_all(certified), span_of(cells), span_of(facets),
+               span_of(points), span_of(curves), span_of(closed), span_of(regions),
+               median(encasement_ms), median(arrangement_ms), median(curves_ms), of_all(verified),
+               median(verification_ms)});
   }
   return table;
 }

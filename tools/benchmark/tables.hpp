@@ -48,6 +48,7 @@ Table caps_table(const Request& request);
 /// The common points of three surfaces, and the critical points of two, up to degree 6; times are
 /// medians over the seeds.
 Table space_table(const Request& request);
+Table surfaces_table(const Request& request);
 
 /// Circles that cross in up to half a million points: count, time and memory.
 Table circles_table(const Request& request);
