@@ -54,8 +54,8 @@ struct CommonPointsOptions {
 
 /// Finds them. BadInput for a zero or constant polynomial, a degree above kMaxDegree, an expression
 /// without variables. Every other input gets an answer, of the three kinds of `Outcome`.
-/// Deterministic, unless seconds run out. Cost: some ten boxes a point, each O(degree^3) times a
-/// small number.
+/// Deterministic, unless seconds run out. Cost: about a hundred boxes a point, each O(degree^4)
+/// operations.
 Result<CommonPoints> common_points(const std::array<NamedSurface, 3>& surfaces,
                                    const Polyhedron& region,
                                    const CommonPointsOptions& options = {});

@@ -190,7 +190,7 @@ struct SurfaceEncasement {
   std::vector<FacetPoint> facet_points;
   std::vector<TriplePoint> triple_points;
   std::vector<TriplePointCover> triple_point_covers;  ///< one a triple of surfaces
-  std::vector<CurveCriticalPoints> critical_points;   ///< at most one a pair of surfaces
+  std::vector<CurveCriticalPoints> critical_points;   ///< of a pair for several directions, or none
   std::vector<AbsenceCertificate> absence_certificates;
   std::vector<GraphCertificate> graph_certificates;
   std::vector<PairCertificate> pair_certificates;

@@ -30,6 +30,11 @@ Point<3> generic_direction(int number) {
   return {radius * std::cos(angle), radius * std::sin(angle), height};
 }
 
+/// For how many directions critical points are listed for two surfaces with this sum of degrees. A
+/// cell needs one list without a point in it, so more lists save cells; but to make lists of a
+/// higher degree costs more than those cells.
+int most_lists(int degrees) { return degrees <= 4 ? 2 : 1; }
+
 /// The side of the plane on which the whole box lies, as far as intervals tell.
 std::optional<Sign> side(const HalfSpace& half_space, const Box<3>& box) {
   Interval value = Interval::enclose(half_space[3]);
@@ -166,25 +171,32 @@ bool SurfaceEncaser::gradients_are_parallel(int f, int g) const {
 void SurfaceEncaser::isolate_critical_points() {
   result_.critical_points.clear();
   directions_.clear();
-  const Box<3> box = region_.polyhedron.bounding_box();
   const int n = static_cast<int>(surfaces_.size());
   int number = 0;
   for (int f = 0; f < n; ++f)
-    for (int g = f + 1; g < n; ++g) {
-      const Point<3> w = generic_direction(number++);
-      if (gradients_are_parallel(f, g)) continue;
-      auto found = pair_critical_points(surfaces_[static_cast<std::size_t>(f)],
-                                        surfaces_[static_cast<std::size_t>(g)], w, box, sides_,
-                                        limits("isolating critical points"), kernel_);
-      if (!found) continue;
-      result_.statistics.critical_boxes += found->points.boxes;
-      result_.critical_points.push_back({{f, g},
-                                         w,
-                                         std::move(found->points.roots),
-                                         found->points.root_box,
-                                         std::move(found->points.tokens)});
-      directions_.push_back(std::move(found->direction));
-    }
+    for (int g = f + 1; g < n; ++g)
+      for (int k = most_lists(surfaces_[static_cast<std::size_t>(f)].degree() +
+                              surfaces_[static_cast<std::size_t>(g)].degree());
+           k > 0 && isolate_critical_points(f, g, generic_direction(number++)); --k) {
+      }
+}
+
+/// Whether another direction may serve where this one does not.
+bool SurfaceEncaser::isolate_critical_points(int f, int g, const Point<3>& w) {
+  if (gradients_are_parallel(f, g)) return false;
+  auto found = pair_critical_points(
+      surfaces_[static_cast<std::size_t>(f)], surfaces_[static_cast<std::size_t>(g)], w,
+      region_.polyhedron.bounding_box(), sides_, limits("isolating critical points"), kernel_);
+  if (!found) return false;
+  const bool is_final = found->points.roots.empty() && found->points.unresolved.empty();
+  result_.statistics.critical_boxes += found->points.boxes;
+  result_.critical_points.push_back({{f, g},
+                                     w,
+                                     std::move(found->points.roots),
+                                     found->points.root_box,
+                                     std::move(found->points.tokens)});
+  directions_.push_back(std::move(found->direction));
+  return !is_final;
 }
 
 void SurfaceEncaser::partition() {

@@ -45,6 +45,7 @@ class SurfaceEncaser {
   void report_boxes(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
                     const std::string& diagnosis);
   bool add_triple_points(RootIsolation<3> roots, const std::array<int, 3>& surfaces);
+  bool isolate_critical_points(int f, int g, const Point<3>& w);
   bool gradients_are_parallel(int f, int g) const;
   void encase_facets();
   /// Reads all cells, those first that were not read before; false if some were ambiguous and have

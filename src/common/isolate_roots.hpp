@@ -15,8 +15,8 @@ namespace encase {
 /// from a preconditioned Jacobian, existence by Krawczyk's test (thesis 3.3, replaced as
 /// docs/encasement.md says). Root boxes are some ulps wide where the system is well conditioned.
 /// Boxes around contacts and singular points stay unresolved, as do those that the limits do not
-/// suffice for. Cost: about ten boxes a zero in the plane, forty in space, each O(degree^(D+1)); in
-/// space polynomials of degree 8 and more and expressions take some times longer.
+/// suffice for. Cost: about ten boxes a zero in the plane, a hundred in space, each
+/// O(degree^(D+1)); in space degrees of 16 and more take many times longer.
 template <int D>
 RootIsolation<D> isolate_roots(const System<D>& system, const Box<D>& box,
                                const std::vector<Hyperplane<D>>& half_spaces,

@@ -87,9 +87,8 @@ class SpaceSearch {
   }
 
   static bool suits(const System<3>& system) {
-    return std::all_of(system.begin(), system.end(), [](const auto* f) {
-      return f->is_polynomial() && degree(*f) < SpaceNet::kMaxCount;
-    });
+    return std::all_of(system.begin(), system.end(),
+                       [](const auto* f) { return degree(*f) < SpaceNet::kMaxCount; });
   }
 
   RootIsolation<3> run() {

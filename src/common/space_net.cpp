@@ -26,11 +26,11 @@ struct Combinations {
   int nets = 0;
   std::array<const double*, 3> rows;
   Matrix<3> weight;             ///< [combination][net]
-  Matrix<3> slope;              ///< [combination][planes, rows, lanes]: of a linear function
+  Matrix<3> slope;              ///< [combination][planes, lines, lanes]: of a linear function
   double* result = nullptr;     ///< the combinations' rows, one after the other
   std::array<Bounds, 3> value;  ///< of their coefficients
   std::array<Bounds, 3> rest;   ///< of these less those of the linear function
-  /// Of differences of neighbouring coefficients: [combination][planes, rows, lanes].
+  /// Of differences of neighbouring coefficients: [combination][planes, lines, lanes].
   std::array<std::array<Bounds, 3>, 3> difference;
 };
 
@@ -55,131 +55,191 @@ struct Extent {
   }
 };
 
-/// De Casteljau's algorithm at 1/2 across N rows: sums of two, scaled at the end (powers of two
-/// change no rounding).
+/// A count that is known when this is compiled.
 template <int N>
-HWY_INLINE void halve_rows(Row* t, Row* lower, Row* upper, Extent* extents) {
+struct Fixed {
+  static constexpr int kMost = N;    ///< room for
+  static constexpr int kBlocks = 1;  ///< of eight lanes
+  HWY_INLINE constexpr operator int() const { return N; }
+};
+/// One from 9 to 16.
+struct Varying {
+  static constexpr int kMost = SpaceNet::kMaxCount;
+  static constexpr int kBlocks = 2;
+  int value;
+  HWY_INLINE operator int() const { return value; }
+};
+
+/// De Casteljau's algorithm at 1/2 across n rows: sums of two, scaled at the end (powers of two
+/// change no rounding).
+template <class Count>
+HWY_INLINE void halve_rows(Count n, Row* t, Row* lower, Row* upper, Extent* extents) {
   lower[0] = t[0];
-  upper[N - 1] = t[N - 1];
+  upper[n - 1] = t[n - 1];
   extents[0].add(lower[0]);
-  extents[1].add(upper[N - 1]);
+  extents[1].add(upper[n - 1]);
   double scale = 1;
-  for (int r = 1; r < N; ++r) {
-    for (int j = 0; j < N - r; ++j) t[j] = t[j] + t[j + 1];
+  for (int r = 1; r < n; ++r) {
+    for (int j = 0; j < n - r; ++j) t[j] = t[j] + t[j + 1];
     scale *= 0.5;
     const Row s = Row::all(scale);
     lower[r] = t[0] * s;
-    upper[N - 1 - r] = t[N - 1 - r] * s;
+    upper[n - 1 - r] = t[n - 1 - r] * s;
     extents[0].add(lower[r]);
-    extents[1].add(upper[N - 1 - r]);
+    extents[1].add(upper[n - 1 - r]);
   }
 }
 
-/// Across rows that are `step` doubles apart, N times, from places `next` apart.
-template <int N>
-HWY_INLINE void halve_across(const double* from, int step, int next, double* lower, double* upper,
+/// Across n rows that are `step` doubles apart.
+template <class Count>
+HWY_INLINE void halve_across(Count n, const double* from, int step, double* lower, double* upper,
                              Extent* extents) {
-  for (int i = 0; i < N; ++i, from += next, lower += next, upper += next) {
-    Row t[N], low[N], high[N];
-    for (int j = 0; j < N; ++j) t[j] = Row::load(from + j * step);
-    halve_rows<N>(t, low, high, extents);
-    for (int j = 0; j < N; ++j) {
-      low[j].store(lower + j * step);
-      high[j].store(upper + j * step);
+  Row t[Count::kMost], low[Count::kMost], high[Count::kMost];
+  t[0] = Row::load(from);
+  for (int j = 1; j < n; ++j) t[j] = Row::load(from + j * step);
+  halve_rows(n, t, low, high, extents);
+  for (int j = 0; j < n; ++j) {
+    low[j].store(lower + j * step);
+    high[j].store(upper + j * step);
+  }
+}
+
+/// Across the lanes of a plane; lines and lanes of the halves are exchanged.
+template <class Count>
+HWY_INLINE void halve_lanes(Count n, const double* from, double* lower, double* upper,
+                            Extent* extents) {
+  constexpr int B = Count::kBlocks, line = 8 * B;
+  for (int of_lines = 0; of_lines < B; ++of_lines) {
+    Row t[8 * B], low[8 * B], high[8 * B];
+    for (int of_lanes = 0; of_lanes < B; ++of_lanes) {
+      Row* block = t + 8 * of_lanes;
+      for (int j = 0; j < 8; ++j) {
+        const int q = 8 * of_lines + j;
+        block[j] = Row::load(from + (q < n ? q : n - 1) * line + 8 * of_lanes);
+      }
+      transpose(block);
+    }
+    halve_rows(n, t, low, high, extents);
+    for (int j = 0; j < n; ++j) {
+      low[j].store(lower + j * line + 8 * of_lines);
+      high[j].store(upper + j * line + 8 * of_lines);
     }
   }
 }
 
-/// Across lanes; rows and lanes of the halves are exchanged.
-template <int N>
-HWY_INLINE void halve_lanes(const double* from, double* lower, double* upper, Extent* extents) {
-  for (int i = 0; i < N; ++i, from += 8 * N, lower += 8 * N, upper += 8 * N) {
-    Row t[8], low[N], high[N];
-    for (int j = 0; j < 8; ++j) t[j] = Row::load(from + 8 * (j < N ? j : N - 1));
-    transpose(t);
-    halve_rows<N>(t, low, high, extents);
-    for (int j = 0; j < N; ++j) {
-      low[j].store(lower + 8 * j);
-      high[j].store(upper + 8 * j);
-    }
-  }
-}
-
-template <int N>
-HWY_INLINE void halve_net(const double* from, int position, double* lower, double* upper,
+template <class Count>
+HWY_INLINE void halve_net(Count n, const double* from, int position, double* lower, double* upper,
                           Bounds* bounds) {
+  constexpr int line = 8 * Count::kBlocks;
+  const int plane = line * n;
   Extent extents[2];
-  if (position == 0)
-    halve_across<N>(from, 8 * N, 8, lower, upper, extents);
-  else if (position == 1)
-    halve_across<N>(from, 8, 8 * N, lower, upper, extents);
-  else
-    halve_lanes<N>(from, lower, upper, extents);
-  bounds[0] = extents[0].bounds(N);
-  bounds[1] = extents[1].bounds(N);
+  if (position == 0) {
+    for (int at = 0; at < plane; at += 8)
+      halve_across(n, from + at, plane, lower + at, upper + at, extents);
+  } else {
+    for (int p = 0; p < n; ++p, from += plane, lower += plane, upper += plane) {
+      if (position == 2) {
+        halve_lanes(n, from, lower, upper, extents);
+        continue;
+      }
+      for (int at = 0; at < line; at += 8)
+        halve_across(n, from + at, line, lower + at, upper + at, extents);
+    }
+  }
+  bounds[0] = extents[0].bounds(8);
+  bounds[1] = extents[1].bounds(8);
+}
+
+/// How many of the lanes of a block are among the first `count`.
+HWY_INLINE int lanes_of_block(int count, int block) {
+  const int left = count - 8 * block;
+  return left < 0 ? 0 : left < 8 ? left : 8;
 }
 
 /// The means of half the differences of the last and the first coefficients, along each axis: mean
 /// slopes on [-1,1]^3.
-template <int N>
-HWY_INLINE void means_of_slopes(const double* rows, double* slope) {
-  Row planes = Row::all(0), lines = Row::all(0), all = Row::all(0);
-  for (int i = 0; i < N; ++i)
-    planes = planes + (Row::load(rows + 8 * (N * (N - 1) + i)) - Row::load(rows + 8 * i));
-  for (int i = 0; i < N; ++i) {
-    lines = lines + (Row::load(rows + 8 * (N * i + N - 1)) - Row::load(rows + 8 * N * i));
-    for (int j = 0; j < N; ++j) all = all + Row::load(rows + 8 * (N * i + j));
+template <class Count>
+HWY_INLINE void means_of_slopes(Count n, const double* rows, double* slope) {
+  constexpr int B = Count::kBlocks, line = 8 * B;
+  const int plane = line * n;
+  double of_planes = 0, of_lines = 0;
+  HWY_ALIGN double of_lanes[line];
+  for (int b = 0; b < B; ++b) {
+    const double* block = rows + 8 * b;
+    Row planes = Row::all(0), lines = Row::all(0), all = Row::all(0);
+    for (int i = 0; i < n; ++i) {
+      planes =
+          planes + (Row::load(block + (n - 1) * plane + i * line) - Row::load(block + i * line));
+      lines =
+          lines + (Row::load(block + i * plane + (n - 1) * line) - Row::load(block + i * plane));
+      for (int j = 0; j < n; ++j) all = all + Row::load(block + i * plane + j * line);
+    }
+    all.store(of_lanes + 8 * b);
+    const int lanes = lanes_of_block(n, b);
+    of_planes += sum_of_lanes(first_lanes(planes, Row::all(0), lanes));
+    of_lines += sum_of_lanes(first_lanes(lines, Row::all(0), lanes));
   }
-  constexpr double scale = 0.5 / (N * N);
-  HWY_ALIGN double of_lanes[8];
-  all.store(of_lanes);
-  slope[0] = scale * sum_of_lanes(first_lanes(planes, Row::all(0), N));
-  slope[1] = scale * sum_of_lanes(first_lanes(lines, Row::all(0), N));
-  slope[2] = scale * (of_lanes[N - 1] - of_lanes[0]);
+  const double scale = 0.5 / (n * n);
+  slope[0] = scale * of_planes;
+  slope[1] = scale * of_lines;
+  slope[2] = scale * (of_lanes[n - 1] - of_lanes[0]);
 }
 
-/// The combinations, their bounds, and those without their linear functions.
-template <int N, int K>
-HWY_INLINE void combine_nets(Combinations* c) {
-  HWY_ALIGN double coordinate[8];
-  for (int j = 0; j < 8; ++j) coordinate[j] = j < N ? 2.0 * j / (N - 1) - 1 : 1.0;
-  const Row lanes = Row::load(coordinate);
+/// The combinations of K nets, their bounds, and those without their linear functions.
+template <int K, class Count>
+HWY_INLINE void combine_nets(Count n, Combinations* c) {
+  constexpr int B = Count::kBlocks, line = 8 * B;
+  HWY_ALIGN double coordinate[line];
+  for (int j = 0; j < line; ++j) coordinate[j] = j < n ? 2.0 * j / (n - 1) - 1 : 1.0;
   for (int target = 0; target < 3; ++target) {
     Row weight[K];
     for (int k = 0; k < K; ++k) weight[k] = Row::all(c->weight[target][k]);
     const std::array<double, 3>& slope = c->slope[target];
-    const Row along = lanes * Row::all(slope[2]);
-    double* to = c->result + target * 8 * N * N;
+    Row along[B];
+    for (int b = 0; b < B; ++b) along[b] = Row::load(coordinate + 8 * b) * Row::all(slope[2]);
+    double* to = c->result + target * line * n * n;
     Extent value, rest;
-    for (int p = 0; p < N; ++p)
-      for (int q = 0; q < N; ++q) {
-        const int at = 8 * (N * p + q);
-        Row sum = weight[0] * Row::load(c->rows[0] + at);
-        for (int k = 1; k < K; ++k) sum = sum + weight[k] * Row::load(c->rows[k] + at);
-        sum.store(to + at);
-        value.add(sum);
-        rest.add(sum - (along + Row::all(slope[0] * coordinate[p] + slope[1] * coordinate[q])));
+    int at = 0;
+    for (int p = 0; p < n; ++p)
+      for (int q = 0; q < n; ++q) {
+        const Row across = Row::all(slope[0] * coordinate[p] + slope[1] * coordinate[q]);
+        for (int b = 0; b < B; ++b, at += 8) {
+          Row sum = weight[0] * Row::load(c->rows[0] + at);
+          for (int k = 1; k < K; ++k) sum = sum + weight[k] * Row::load(c->rows[k] + at);
+          sum.store(to + at);
+          value.add(sum);
+          rest.add(sum - (along[b] + across));
+        }
       }
-    c->value[target] = value.bounds(N);
-    c->rest[target] = rest.bounds(N);
+    c->value[target] = value.bounds(8);
+    c->rest[target] = rest.bounds(8);
   }
 }
 
 /// The bounds of the combinations' differences.
-template <int N>
-HWY_INLINE void differences(Combinations* c) {
+template <class Count>
+HWY_INLINE void differences(Count n, Combinations* c) {
+  constexpr int B = Count::kBlocks, line = 8 * B;
+  const int plane = line * n;
   for (int target = 0; target < 3; ++target) {
-    const double* b = c->result + target * 8 * N * N;
-    Extent planes, lines, lanes;
-    for (int p = 0; p < N; ++p)
-      for (int q = 0; q < N; ++q) {
-        const double* at = b + 8 * (N * p + q);
-        const Row row = Row::load(at);
-        if (p + 1 < N) planes.add(Row::load(at + 8 * N) - row);
-        if (q + 1 < N) lines.add(Row::load(at + 8) - row);
-        lanes.add(Row::load_unaligned(at + 1) - row);
-      }
-    c->difference[target] = {planes.bounds(N), lines.bounds(N), lanes.bounds(N - 1)};
+    const double* first = c->result + target * plane * n;
+    Extent planes, lines;
+    Bounds lanes{HUGE_VAL, -HUGE_VAL};
+    for (int b = 0; b < B; ++b) {
+      Extent of_block;
+      for (int p = 0; p < n; ++p)
+        for (int q = 0; q < n; ++q) {
+          const double* at = first + p * plane + q * line + 8 * b;
+          const Row row = Row::load(at);
+          if (p + 1 < n) planes.add(Row::load(at + plane) - row);
+          if (q + 1 < n) lines.add(Row::load(at + line) - row);
+          of_block.add(Row::load_unaligned(at + 1) - row);
+        }
+      const Bounds bounds = of_block.bounds(lanes_of_block(n - 1, b));
+      if (bounds.lo < lanes.lo) lanes.lo = bounds.lo;
+      if (bounds.hi > lanes.hi) lanes.hi = bounds.hi;
+    }
+    c->difference[target] = {planes.bounds(8), lines.bounds(8), lanes};
   }
 }
 
@@ -189,44 +249,46 @@ template <class Run>
 HWY_INLINE void with_count(int count, Run run) {
   switch (count) {
     case 2:
-      return run.template operator()<2>();
+      return run(Fixed<2>());
     case 3:
-      return run.template operator()<3>();
+      return run(Fixed<3>());
     case 4:
-      return run.template operator()<4>();
+      return run(Fixed<4>());
     case 5:
-      return run.template operator()<5>();
+      return run(Fixed<5>());
     case 6:
-      return run.template operator()<6>();
+      return run(Fixed<6>());
     case 7:
-      return run.template operator()<7>();
+      return run(Fixed<7>());
+    case 8:
+      return run(Fixed<8>());
     default:
-      return run.template operator()<8>();
+      return run(Varying{count});
   }
 }
 
 void halve_space_net(const double* from, int count, int position, double* lower, double* upper,
                      Bounds* bounds) {
-  with_count(count, [&]<int N>() HWY_ATTR { halve_net<N>(from, position, lower, upper, bounds); });
+  with_count(count, [&](auto n) HWY_ATTR { halve_net(n, from, position, lower, upper, bounds); });
 }
 
 void space_slopes(const double* rows, int count, double* slope) {
-  with_count(count, [&]<int N>() HWY_ATTR { means_of_slopes<N>(rows, slope); });
+  with_count(count, [&](auto n) HWY_ATTR { means_of_slopes(n, rows, slope); });
 }
 
 void combine_space_nets(Combinations* c) {
-  with_count(c->count, [&]<int N>() HWY_ATTR {
+  with_count(c->count, [&](auto n) HWY_ATTR {
     if (c->nets == 1)
-      combine_nets<N, 1>(c);
+      combine_nets<1>(n, c);
     else if (c->nets == 2)
-      combine_nets<N, 2>(c);
+      combine_nets<2>(n, c);
     else
-      combine_nets<N, 3>(c);
+      combine_nets<3>(n, c);
   });
 }
 
 void space_differences(Combinations* c) {
-  with_count(c->count, [&]<int N>() HWY_ATTR { differences<N>(c); });
+  with_count(c->count, [&](auto n) HWY_ATTR { differences(n, c); });
 }
 
 }  // namespace encase::HWY_NAMESPACE
@@ -261,12 +323,12 @@ void copy(const Bernstein<3>& from, const std::array<int, 3>& order, SpaceNet* t
   const auto [lo, hi] = std::minmax_element(from.b.begin(), from.b.end());
   to->lo = *lo;
   to->hi = *hi;
-  std::array<int, 3> stride;  // of the variables
-  stride = {n * n, n, 1};
+  const std::array<int, 3> stride{n * n, n, 1};  // of the variables
+  const int lanes = SpaceNet::lanes(n);
   double* row = to->rows;
   for (int p = 0; p < n; ++p)
-    for (int q = 0; q < n; ++q, row += 8)
-      for (int l = 0; l < 8; ++l)
+    for (int q = 0; q < n; ++q, row += lanes)
+      for (int l = 0; l < lanes; ++l)
         row[l] = from.b[static_cast<std::size_t>(p * stride[order[0]] + q * stride[order[1]] +
                                                  std::min(l, n - 1) * stride[order[2]])];
 }
@@ -296,7 +358,7 @@ namespace {
 /// Combinations of the nets of a system with the rows of Y as weights.
 class Preconditioned {
  public:
-  /// `slopes`: the nets' mean slopes in the order of planes, rows and lanes; `identity`: 1 if Y is
+  /// `slopes`: the nets' mean slopes in the order of planes, lines and lanes; `identity`: 1 if Y is
   /// about the inverse of theirs, else 0.
   Preconditioned(const SpaceSystem& system, const Matrix<3>& slopes, const Matrix<3>& y,
                  double identity)
@@ -405,7 +467,8 @@ class Preconditioned {
  private:
   struct alignas(64) Buffer {
     // Three combinations of three groups, and room for a neighbour of the last lane.
-    std::array<double, 9 * 8 * SpaceNet::kMaxCount * SpaceNet::kMaxCount + 8> rows{};
+    std::array<double, 9 * SpaceNet::kMaxCount * SpaceNet::kMaxCount * SpaceNet::kMaxCount + 8>
+        rows{};
   };
 
   const SpaceSystem& system_;
@@ -432,7 +495,7 @@ Matrix<3> adjugate(const Matrix<3>& m) {
 void test_system(const SpaceSystem& system, double quality, SpaceVerdict* verdict) {
   verdict->excluded = verdict->contracts = false;
   verdict->zeros = {{-1, -1, -1}, {1, 1, 1}};
-  Matrix<3> slopes, jacobian;  // of planes, rows and lanes; of the variables
+  Matrix<3> slopes, jacobian;  // of planes, lines and lanes; of the variables
   for (int k = 0; k < 3; ++k) {
     const SpaceNet& net = system.nets[k];
     if (net.sign()) {

@@ -13,11 +13,11 @@
 namespace encase {
 
 /// A polynomial on a box, in the box's coordinates [-1,1]^3: a Bernstein net of `count`
-/// coefficients in each variable (degree count - 1), as count planes of count rows of eight lanes;
-/// lanes from `count` on repeat the last one. Which variables belong to planes, rows and lanes is
-/// said by its SpaceSystem.
+/// coefficients in each variable (degree count - 1), as count planes of count lines of 8 or 16
+/// lanes; lanes from `count` on repeat the last one. Which variables belong to planes, lines and
+/// lanes is said by its SpaceSystem.
 struct SpaceNet {
-  static constexpr int kMaxCount = 8;
+  static constexpr int kMaxCount = 16;
 
   double* rows = nullptr;  ///< aligned to 64 bytes
   int count = 0;
@@ -31,14 +31,15 @@ struct SpaceNet {
     return std::nullopt;
   }
   double magnitude() const { return hi > -lo ? hi : -lo; }
+  static int lanes(int count) { return count <= 8 ? 8 : 16; }
   /// How many doubles its rows are.
-  static int size(int count) { return count * count * 8; }
+  static int size(int count) { return count * count * lanes(count); }
 };
 
 /// Three nets on one box.
 struct SpaceSystem {
   std::array<SpaceNet, 3> nets;
-  std::array<int, 3> order{0, 1, 2};  ///< the variables of planes, rows and lanes
+  std::array<int, 3> order{0, 1, 2};  ///< the variables of planes, lines and lanes
 };
 
 /// Takes over a net of equal degrees in all variables, at most kMaxCount - 1.

@@ -137,6 +137,7 @@ struct SpaceRoots::Approximation {
   Point<3> x;
   Point<3> before;
   Matrix<3> jacobian;
+  bool converged = false;
 };
 
 SpaceRoots::SpaceRoots(const System<3>& system, const Box<3>& root, Kernel& kernel)
@@ -152,17 +153,17 @@ SpaceRoots::SpaceRoots(const System<3>& system, const Box<3>& root, Kernel& kern
     for (const auto* f : system) precise_.emplace_back(f->polynomial());
 }
 
-/// Newton's iteration in doubles; nothing if it leaves `reach`.
-std::optional<SpaceRoots::Approximation> SpaceRoots::newton(const Point<3>& start,
-                                                            double reach) const {
+/// Newton's iteration; nothing if it leaves `reach`.
+std::optional<SpaceRoots::Approximation> SpaceRoots::iterate(const Point<3>& start, double reach,
+                                                             bool precise) const {
   Approximation a;
   a.x = start;
   double last = HUGE_VAL;
   for (int round = 0; round < 12; ++round) {
     Point<3> value;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const auto v = system_[i]->value_and_gradient(a.x);
-      value[i] = v.value;
+      value[i] = precise ? precise_[i].value(a.x, 0).value : v.value;
       a.jacobian[i] = v.gradient;
     }
     Matrix<3> y;
@@ -176,10 +177,20 @@ std::optional<SpaceRoots::Approximation> SpaceRoots::newton(const Point<3>& star
       if (!(std::fabs(a.x[k] - start[k]) <= reach)) return std::nullopt;
     }
     // Quadratic convergence: what remains is the business of more precise values.
-    if (size <= 1e-7 * reach || (round > 2 && size >= 0.5 * last)) break;
+    a.converged = size <= 1e-7 * reach;
+    if (a.converged || (round > 2 && size >= 0.5 * last)) break;
     last = size;
   }
   return a;
+}
+
+/// With values in doubles, and where these are too coarse with precise ones.
+std::optional<SpaceRoots::Approximation> SpaceRoots::newton(const Point<3>& start,
+                                                            double reach) const {
+  const auto a = iterate(start, reach, false);
+  if ((a && a->converged) || precise_.empty()) return a;
+  const auto b = iterate(start, reach, true);
+  return b ? b : a;
 }
 
 /// A box some units in the last place wide around the zero near a.x, from one precise value there:

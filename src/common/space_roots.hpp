@@ -59,6 +59,7 @@ class SpaceRoots {
     Box<3> box;
     bool rounded = false;
   };
+  std::optional<Approximation> iterate(const Point<3>& start, double reach, bool precise) const;
   std::optional<Approximation> newton(const Point<3>& start, double reach) const;
   std::optional<Enclosure> enclose(const Box<3>& around, const Contraction<3>& c,
                                    const Approximation& a) const;

@@ -88,7 +88,8 @@ TEST(CommonPoints, AThirdIsOnTheBoundaryThoughNoDouble) {
 }
 
 TEST(CommonPoints, DegreesMayDiffer) {
-  // A plane, a sphere and a surface of degree six; of degree nine, by the general search.
+  // A plane, a sphere and a surface of degree six; of degree nine; of
+  // degree 17, by the general search.
   const auto six =
       found(surfaces("x + y + z", "x^2 + y^2 + z^2 - 1", "x^6 - y^6 + z^5 x - 1/100"), cube(2));
   EXPECT_EQ(six.outcome, Outcome::Certified);
@@ -96,6 +97,9 @@ TEST(CommonPoints, DegreesMayDiffer) {
   const auto nine = found(surfaces("x + y + z", "x^2 + y^2 + z^2 - 1", "x^9 - y^9/2"), cube(2));
   EXPECT_EQ(nine.outcome, Outcome::Certified);
   EXPECT_EQ(nine.points.size(), 2u);
+  const auto general = found(surfaces("x + y + z", "x - y/3 + z/7", "x^17 - z - 1/2"), cube(2));
+  EXPECT_EQ(general.outcome, Outcome::Certified);
+  EXPECT_EQ(general.points.size(), 1u);
 }
 
 TEST(CommonPoints, ExpressionsHaveThem) {

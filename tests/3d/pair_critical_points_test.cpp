@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "3d/arc_direction.hpp"
 #include "3d/verify_isolation.hpp"
@@ -60,6 +61,25 @@ TEST(PairCriticalPoints, RandomPairsAreSettledAndProved) {
       const auto result = critical(triple[0], triple[1], {0.3, 0.5, 0.8});
       EXPECT_EQ(result.direction.degree(), 2 * (degree - 1));
       EXPECT_TRUE(result.points.unresolved.empty()) << degree << ", " << seed;
+    }
+}
+
+TEST(PairCriticalPoints, NeedlesAreFoundWhereverTheyAre) {
+  // Small spheres and surfaces through their centres meet in closed loops.
+  std::mt19937_64 random(5);
+  for (const double radius : {5e-4, 5e-7, 5e-9})
+    for (int place = 0; place < 20; ++place) {
+      Polynomial<3> sphere = Polynomial<3>::constant(-Rational(radius) * Rational(radius)), plane;
+      for (int i = 0; i < 3; ++i) {
+        const auto offset = Polynomial<3>::variable(i) -
+                            Polynomial<3>::constant(Rational(symmetric_random(random)));
+        sphere = sphere + offset * offset;
+        plane = plane + Polynomial<3>::constant(Rational(symmetric_random(random))) * offset;
+      }
+      const auto result = critical(sphere, plane + Polynomial<3>::constant(Rational(1, 3)) * sphere,
+                                   {0.3, 0.5, 0.8});
+      EXPECT_EQ(result.points.roots.size(), 2u) << radius;
+      EXPECT_TRUE(result.points.unresolved.empty()) << radius;
     }
 }
 

@@ -18,7 +18,7 @@ void choose(int64_t target) {
 
 TEST(PortabilityInSpace, EveryInstructionSetGivesTheSamePoints) {
   std::vector<std::array<NamedSurface, 3>> triples;
-  for (int degree = 1; degree <= 7; ++degree)
+  for (int degree = 1; degree <= 8; ++degree)
     triples.push_back(named(random_triple(degree, 20 + static_cast<std::uint64_t>(degree))));
   triples.push_back({triples[3][0], triples[3][1], triples[5][2]});  // of unequal degrees
   std::vector<CommonPoints> expected;

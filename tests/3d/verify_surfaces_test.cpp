@@ -78,6 +78,16 @@ TEST(VerifySurfaces, ObliqueRegionsAreProved) {
   }
 }
 
+TEST(VerifySurfaces, ExpressionsAreProved) {
+  const Expression x = Expression::variable(0), y = Expression::variable(1),
+                   z = Expression::variable(2);
+  const std::vector<NamedSurface> surfaces{{"wave", z - Expression::apply(Operation::Sin, x + y)},
+                                           {"plane", written::polynomial<3>("x-y/3+z-1/7")}};
+  const SurfaceEncasement e = encase(surfaces, cube(1)).value();
+  EXPECT_EQ(e.outcome, Outcome::Certified);
+  EXPECT_EQ(objections(e), "");
+}
+
 TEST(VerifySurfaces, DegenerateAndUndecidedEncasementsAreProved) {
   SurfaceOptions options;
   options.max_cells = 300;
