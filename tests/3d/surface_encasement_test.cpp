@@ -64,6 +64,15 @@ TEST(SurfaceEncasement, ATorusHasEulerCharacteristicZero) {
   EXPECT_EQ(euler_characteristic(certified({kTorus}, cube(4)), 0), 0);
 }
 
+TEST(SurfaceEncasement, HandlesAreCountedAsOnAGrid) {
+  // Each number is that of the surface of sign changes on a grid of tetrahedra, too.
+  const std::string two_holes = "(x*(x-1)^2*(x-2)+y^2)^2+z^2-1/100";
+  EXPECT_EQ(euler_characteristic(certified({two_holes}, cube(3)), 0), -2);
+  EXPECT_EQ(euler_characteristic(certified({two_holes}, cube(2)), 0), -3);  // without an end
+  const std::string clebsch = "x^3+y^3+z^3+1-(x+y+z+1)^3";
+  EXPECT_EQ(euler_characteristic(certified({clebsch}, cube(5)), 0), -2);
+}
+
 TEST(SurfaceEncasement, TwoSpheresMeetInACircle) {
   const SurfaceEncasement e = certified({"x^2+y^2+z^2-13/10", "(x-1)^2+y^2+z^2-1"}, cube(3));
   EXPECT_EQ(curve_components(e, 0, 1), (CurveComponents{0, 1}));
