@@ -44,6 +44,9 @@ bool misses(const FilteredFunction<3>& f, const RationalPoint<3>& a, const Ratio
   return misses(f, a, middle, kernel, halvings - 1) && misses(f, middle, b, kernel, halvings - 1);
 }
 
+/// Points of a facet to which straight ways are tried.
+constexpr int kTargets = 24;
+
 }  // namespace
 
 struct RegionLocator::Tables {
@@ -92,6 +95,31 @@ struct RegionLocator::Tables {
     return arrangement.region_of_facet[f][feature.index];
   }
 
+  /// A point of a facet, another one for every k: first that straight along an axis from the given
+  /// point, if it lies on the facet, then others ever nearer to and farther from it.
+  RationalPoint<2> target(const RationalPoint<3>& point, int f, int k) const {
+    const Region& polygon = e.facets[f].polygon;
+    RationalPoint<2> sum{0, 0};
+    Rational weights = 0;
+    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+      // Any numbers from 1 to 97 will do, if they differ enough.
+      const unsigned weight = (37 * k * (i + 2) + 11 * k * k * (i + 1)) % 97 + 1;
+      weights += weight;
+      for (int axis = 0; axis < 2; ++axis) sum[axis] += weight * polygon.corners[i][axis];
+    }
+    RationalPoint<2> any{sum[0] / weights, sum[1] / weights};
+    const auto axes = PlaneChart(planes[e.facets[f].plane]).axes();
+    const RationalPoint<2> foot{point[axes[0]], point[axes[1]]};
+    for (int side = 0; side < polygon.side_count(); ++side) {
+      const auto line = polygon.side(side).exact();
+      if (line[0] * foot[0] + line[1] * foot[1] + line[2] > 0) return any;
+    }
+    if (k == 0) return foot;
+    const Rational part = Rational(1) / (1 << (k % 5));
+    for (int axis = 0; axis < 2; ++axis) any[axis] = foot[axis] + part * (any[axis] - foot[axis]);
+    return any;
+  }
+
   Place find_region(const RationalPoint<3>& point, const std::vector<Sign>& signs,
                     Kernel& kernel) const {
     const int cell = cell_of(point);
@@ -99,21 +127,11 @@ struct RegionLocator::Tables {
     for (const int region : regions_of_cell[cell])
       if (arrangement.regions[region].signs == signs) candidates.push_back(region);
     if (candidates.size() == 1) return {Place::Kind::Region, candidates[0], {}};
-    for (const int f : e.cells[cell].facets) {
-      const auto& corners = e.facets[f].polygon.corners;
-      RationalPoint<2> middle{0, 0};
-      for (const auto& corner : corners)
-        for (int i = 0; i < 2; ++i) middle[i] += corner[i] / Rational(corners.size());
-      std::vector<RationalPoint<2>> targets{middle};
-      for (const Rational& part : {Rational(1, 2), Rational(15, 16)})
-        for (const auto& corner : corners)
-          targets.push_back({middle[0] + part * (corner[0] - middle[0]),
-                             middle[1] + part * (corner[1] - middle[1])});
-      for (const auto& target : targets) {
-        const int region = region_beyond(point, cell, f, target, kernel);
+    for (int k = 0; k < kTargets; ++k)
+      for (const int f : e.cells[cell].facets) {
+        const int region = region_beyond(point, cell, f, target(point, f, k), kernel);
         if (region >= 0) return {Place::Kind::Region, region, {}};
       }
-    }
     return {};
   }
 

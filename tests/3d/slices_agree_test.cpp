@@ -62,15 +62,18 @@ TEST_P(SlicesOfPairs, CrossWhereTheIntersectionCurvesPass) {
     ASSERT_TRUE(on_plane) << on_plane.error().message;
     ASSERT_EQ(on_plane.value().encasement.outcome, Outcome::Certified);
     const std::vector<Point<3>> expected = passages(met.value().curves, plane);
-    ASSERT_EQ(on_plane.value().encasement.crossings.size(), expected.size());
-    crossings += expected.size();
+    std::size_t inside = 0;
     for (const Crossing& crossing : on_plane.value().encasement.crossings) {
+      if (crossing.location != Location::Inside) continue;
+      ++inside;
       const Point<3> p = on_plane.value().source.chart.lift(crossing.point);
       double nearest = HUGE_VAL;
       for (const Point<3>& q : expected)
         nearest = std::min(nearest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
       EXPECT_LT(nearest, 0.02);
     }
+    EXPECT_EQ(inside, expected.size());
+    crossings += inside;
   }
   EXPECT_GT(crossings, 20u);
 }

@@ -140,6 +140,10 @@ TEST(SpaceArrangement, OfRandomTriplesAgreesWithAFloodFill) {
       std::size_t thin = 0;
       for (const auto& part : fill.parts()) {
         const auto place = locator.locate(part.deepest);
+        if (place.kind == RegionLocator::Place::Kind::Undecided && part.depth < 2) {
+          ++thin;
+          continue;
+        }
         ASSERT_EQ(place.kind, RegionLocator::Place::Kind::Region);
         EXPECT_EQ(arrangement.value().regions[place.region].signs, part.signs);
         const bool fresh = found.insert(place.region).second;

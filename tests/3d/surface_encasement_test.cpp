@@ -201,7 +201,7 @@ std::vector<NamedSurface> needle(double diameter, std::mt19937_64& generator) {
 TEST(SurfaceEncasement, NeedlesAreFound) {
   std::mt19937_64 generator(7);
   for (const double diameter : {1e-3, 1e-6})
-    for (int place = 0; place < 5; ++place) {
+    for (int place = 0; place < 100; ++place) {
       const SurfaceEncasement e = certified_scene(needle(diameter, generator), cube(1));
       EXPECT_EQ(euler_characteristic(e, 1), 2);
       EXPECT_EQ(curve_components(e, 0, 1), (CurveComponents{0, 1}));

@@ -700,7 +700,7 @@ class Surfaces(CommandTest):
         self.assertGreater(seconds, 0)
         self.assertGreater(summary.pop("cells"), 1)
         self.assertEqual(summary, {"status": "certified", "surfaces": 2, "points": 0,
-                                   "intersection_curves": 1, "closed_curves": 1,
+                                   "intersection_curves": 1, "closed_curves": 1, "regions": 4,
                                    "euler": [2, 1], "components": [1, 1]})
 
     def test_files(self):

@@ -31,13 +31,17 @@ std::vector<Value> row_of(const std::string& name, const std::string& setting,
   const auto relaxed = std::count_if(r.cells.begin(), r.cells.end(), [](const Cell& cell) {
     return cell.state == CellState::Relaxed;
   });
+  // Those in the region; results list those outside too, if the region used is larger.
+  const auto crossings = std::count_if(
+      r.crossings.begin(), r.crossings.end(),
+      [](const Crossing& crossing) { return crossing.location != Location::Outside; });
   Value least;
   if (timed.certified()) least = std::int64_t{least_cells(r)};
   return {name,
           setting,
           to_string(r.outcome),
           kMilli * timed.seconds,
-          static_cast<std::int64_t>(r.crossings.size()),
+          static_cast<std::int64_t>(crossings),
           static_cast<std::int64_t>(r.cells.size()),
           std::move(least),
           static_cast<std::int64_t>(relaxed),
