@@ -83,11 +83,13 @@ double tolerance(const SurfacesRequest& r, const SurfaceEncasement& encasement) 
                          : kPart * encasement.region_used.bounding_box().largest_width();
 }
 
-/// The arrangement of space, where the encasement is certified.
+/// The arrangement of space, where the encasement is certified and the regions can be told.
 Result<std::optional<SpaceArrangement>> arranged(const Result<SurfaceEncasement>& encasement) {
   if (!encasement || encasement.value().outcome != Outcome::Certified)
     return std::optional<SpaceArrangement>();
   auto arrangement = arrange(encasement.value());
+  if (!arrangement && arrangement.error().code == Error::Code::Undecided)
+    return std::optional<SpaceArrangement>();
   if (!arrangement) return arrangement.error();
   return std::optional<SpaceArrangement>(std::move(arrangement).value());
 }

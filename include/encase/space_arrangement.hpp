@@ -61,8 +61,9 @@ struct SpaceArrangement {
 };
 
 /// The arrangement of an encasement's surfaces. Degenerate or Undecided if the encasement is;
-/// Internal if its parts do not fit together, as in one that `verify` objects to. Cost: about that
-/// of reading the encasement.
+/// Undecided too where a closed sphere shares its cell with another piece of a surface; Internal if
+/// its parts do not fit together, as in one that `verify` objects to. Cost: about that of reading
+/// the encasement.
 Result<SpaceArrangement> arrange(const SurfaceEncasement& encasement);
 
 /// Re-proves the encasement, and that the arrangement is that of it, entry by entry, as `arrange`

@@ -139,6 +139,9 @@ class PatchCutter {
         if (third != arc.surfaces[0] && third != arc.surfaces[1]) signs[third] = -signs[third];
       pieces.push_back({signs, {}});
     }
+    // Of all but its own two surfaces the signs are proved.
+    if (std::count(signs.begin(), signs.end(), Sign::Zero) != 2)
+      fault_ = "a surface has no sign along an arc";
     if (signs != facets_.signs_around(arc.ends[1]))
       fault_ = "the signs along an arc do not lead to its end";
   }

@@ -43,6 +43,7 @@ class SpaceGluer {
     if (fault_.empty()) name_components();
     if (fault_.empty()) name_faces();
     if (fault_.empty()) name_regions();
+    if (!open_.empty()) return Error{Error::Code::Undecided, open_};
     if (!fault_.empty())
       return Error{Error::Code::Internal, "the encasement's parts do not fit together: " + fault_};
     return std::move(result_);
@@ -110,15 +111,19 @@ class SpaceGluer {
     const Arrangement& a = e_.facets[edge.facet].arrangement;
     for (const int h : {edge.half_edge, Arrangement::twin(edge.half_edge)}) {
       const Sign sign = tables_.sign(edge.facet, a.half_edges[h].face, surface);
+      if (sign == Sign::Zero) fault_ = "a surface has no sign beside its loop";
       regions_.join(facet(edge.facet, a.half_edges[h].face), side(cell, face_of_cell, sign));
     }
   }
 
-  /// A closed sphere is the only patch of its cell; the cell's whole boundary lies outside of it.
+  /// Where a closed sphere is the only patch of its cell, the cell's whole boundary lies outside of
+  /// it. Where it is not, what lies around it is left open.
   void join_around_sphere(int c, int p) {
     const SpaceCell& cell = e_.cells[c];
-    if (cell.patches.size() > 1 || cell.facets.empty()) {
-      fault_ = "a closed sphere shares its cell with another piece";
+    if (cell.patches.size() > 1) {
+      open_ =
+          "a closed sphere shares its cell with another piece of a surface: which region is "
+          "around it is not told";
       return;
     }
     const int surface = cell.patches[p].surface;
@@ -126,8 +131,6 @@ class SpaceGluer {
     int inside = 0;
     if (!any.surfaces.empty()) inside = any.arrangement.outside == 0 ? 1 : 0;
     const Sign sign = tables_.sign(cell.facets[0], inside, surface);
-    // No surface has a sign on a facet if it has none in the cells on both sides of it: then that
-    // is what the arrangement of the facet says.
     if (sign == Sign::Zero) {
       fault_ = "a closed sphere's surface has no sign around it";
       return;
@@ -234,7 +237,10 @@ class SpaceGluer {
         }
         const int region = name(facet(static_cast<int>(f), i));
         result_.region_of_facet.back().push_back(region);
-        set_signs(region, signs_on_facet(static_cast<int>(f), i));
+        const std::vector<Sign> signs = signs_on_facet(static_cast<int>(f), i);
+        if (std::count(signs.begin(), signs.end(), Sign::Zero) > 0)
+          open_ = "the sign of a surface on a facet is not proved";
+        set_signs(region, signs);
         for (const int cell : facet_here.cells)
           if (cell < 0)
             result_.regions[region].touches_boundary = true;
@@ -303,7 +309,8 @@ class SpaceGluer {
   std::map<int, int> component_names_;
   int first_side_ = 0;
   SpaceArrangement result_;
-  std::string fault_;
+  std::string fault_;  ///< what does not fit together
+  std::string open_;   ///< what cannot be told
 };
 
 }  // namespace

@@ -190,6 +190,19 @@ TEST(SpaceArrangement, ACurvedSheetMeetsARegionOfEqualSignsTwice) {
   EXPECT_EQ((count[{Sign::Negative, Sign::Negative}]), 1);
 }
 
+TEST(SpaceArrangement, ASphereInASphereIsLeftOpenOrRight) {
+  const auto e = encase({{"outer", written::polynomial<3>(kSphere)},
+                         {"inner", written::polynomial<3>("x^2+y^2+z^2-1/2")}},
+                        make_box({-2, -2, -2}, {2, 2, 2}).value());
+  ASSERT_TRUE(e);
+  ASSERT_EQ(e.value().outcome, Outcome::Certified);
+  const auto arrangement = arrange(e.value());
+  if (arrangement)
+    EXPECT_EQ(arrangement.value().regions.size(), 3u);
+  else
+    EXPECT_EQ(arrangement.error().code, Error::Code::Undecided);
+}
+
 TEST(SpaceArrangement, PointsAreLocatedByTheirSigns) {
   const Arranged a = arranged({kSphere, "z-x^2+1/2", "x+y+z"}, 2);
   const RegionLocator locator(a.encasement, a.arrangement);
