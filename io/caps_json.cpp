@@ -8,6 +8,7 @@
 #include "encase/caps_output.hpp"
 #include "json_writer.hpp"
 #include "names.hpp"
+#include "result_parts.hpp"
 
 namespace encase {
 namespace {
@@ -77,34 +78,26 @@ void put_edge(JsonWriter& w, const CapsEdge& edge, int id) {
 
 std::string to_json(const CapsResult& r) {
   JsonWriter w;
-  const auto top = [&w](const char* key) {
-    w.raw(",\n");
-    w.key(key);
-  };
-  w.raw("{\n");
-  w.field("format", "encase-result");
-  top("version"), w.put(kResultVersion);
-  top("command"), w.put("caps");
-  top("status"), w.put(name_of(kCapsClasses, r.answer));
-  top("epsilon"), w.put(r.epsilon);
-  top("delta"), w.put(r.delta);
-  top("self_crossings"), w.put(r.self_crossings);
-  top("obstacles"), put_obstacles(w, r.obstacles);
-  top("curves"), put_curves(w, r.curves);
-  top("box"), w.put(r.box);
-  top("cut"), w.put(kCapsCut);
-  top("tokens"), w.put(r.tokens);
-  top("curve_sets"), w.list(r.curve_sets);
-  top("leaves"), w.lines(r.leaves, [&](const CapsLeaf& leaf) { put_leaf(w, leaf); });
+  put_head(w, "caps", name_of(kCapsClasses, r.answer));
+  w.section("epsilon"), w.put(r.epsilon);
+  w.section("delta"), w.put(r.delta);
+  w.section("self_crossings"), w.put(r.self_crossings);
+  w.section("obstacles"), put_obstacles(w, r.obstacles);
+  w.section("curves"), put_curves(w, r.curves);
+  w.section("box"), w.put(r.box);
+  w.section("cut"), w.put(kCapsCut);
+  w.section("tokens"), w.put(r.tokens);
+  w.section("curve_sets"), w.list(r.curve_sets);
+  w.section("leaves"), w.lines(r.leaves, [&](const CapsLeaf& leaf) { put_leaf(w, leaf); });
   int id = 0;
-  top("regions");
+  w.section("regions");
   w.lines(r.regions, [&](const CapsRegion& region) { put_region(w, region, id++); });
   id = 0;
-  top("vertices");
+  w.section("vertices");
   w.lines(r.vertices, [&](const CapsVertex& vertex) { put_vertex(w, vertex, id++); });
   id = 0;
-  top("edges"), w.lines(r.edges, [&](const CapsEdge& edge) { put_edge(w, edge, id++); });
-  top("statistics"), w.raw("{");
+  w.section("edges"), w.lines(r.edges, [&](const CapsEdge& edge) { put_edge(w, edge, id++); });
+  w.section("statistics"), w.raw("{");
   w.field("nodes", r.nodes);
   w.field("evaluations", r.evaluations);
   w.raw("}\n}\n");

@@ -35,6 +35,16 @@ void put_function(JsonWriter& w, const Function<D>& function) {
 }
 
 template <int D>
+void put_functions(JsonWriter& w, const std::vector<NamedFunction<D>>& functions) {
+  w.lines(functions, [&](const NamedFunction<D>& named) {
+    w.raw("{");
+    w.field("name", named.name);
+    put_function(w, named.function);
+    w.raw("}");
+  });
+}
+
+template <int D>
 Polynomial<D> read_terms(const JsonNode& node) {
   auto terms = node.map([](const JsonNode& term) {
     term.of_size(D + 1);

@@ -101,6 +101,11 @@ class JsonWriter {
     this->key(key);
     put(value);
   }
+  /// The key of what begins a new line of the document, after another one.
+  void section(const char* key) {
+    raw(",\n");
+    this->key(key);
+  }
   void key(const char* key) {
     const char last = out_.size() ? out_[out_.size() - 1] : '{';
     if (last != '{' && last != '\n') raw(",");

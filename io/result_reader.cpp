@@ -12,9 +12,9 @@
 #include "caps_json.hpp"
 #include "encase/caps_output.hpp"
 #include "encase/result_json.hpp"
-#include "function_json.hpp"
 #include "json_node.hpp"
 #include "names.hpp"
+#include "result_parts.hpp"
 #include "surface_json.hpp"
 
 namespace encase {
@@ -23,20 +23,11 @@ namespace {
 using Json = nlohmann::json;
 
 SliceSource read_source(const JsonNode& node, std::size_t curves) {
-  const auto numbers = [](const JsonNode& item) {
-    item.of_size(4);
-    HalfSpace read;
-    for (int k = 0; k < 4; ++k) read[k] = item.item(k).rational();
-    return read;
-  };
-  const HalfSpace plane = numbers(node.member("plane"));
+  const HalfSpace plane = read_half_space(node.member("plane"));
   if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0)
     node.member("plane").fail("a plane needs a normal");
-  const JsonNode sides = node.member("region").member("halfspaces");
-  auto region = make_polyhedron(sides.map(numbers));
-  if (!region) sides.fail(region.error().message);
   SliceSource source{read_functions<3>(node.member("surfaces")),
-                     std::move(region).value(),
+                     read_solid_region(node.member("region")),
                      PlaneChart(plane),
                      {},
                      {}};
@@ -51,14 +42,7 @@ Region read_region(const JsonNode& node) {
     if (node.text() != "plane") node.fail("a region is a polygon or \"plane\"");
     return whole_plane();
   }
-  const JsonNode polygon = node.member("polygon");
-  auto corners = polygon.map([](const JsonNode& corner) {
-    corner.of_size(2);
-    return RationalPoint<2>{corner.item(0).rational(), corner.item(1).rational()};
-  });
-  Result<Region> region = make_region(std::move(corners));
-  if (!region) polygon.fail(region.error().message);
-  return std::move(region).value();
+  return read_polygon(node.member("polygon"));
 }
 
 Line read_line(const JsonNode& node) {
@@ -80,27 +64,12 @@ Line read_line(const JsonNode& node) {
   return line;
 }
 
-std::array<int, 2> read_pair(const JsonNode& node, std::size_t curves) {
-  node.of_size(2);
-  const std::array<int, 2> pair = {node.item(0).index(curves), node.item(1).index(curves)};
-  if (pair[0] >= pair[1]) node.fail("expected two different curves in ascending order");
-  return pair;
-}
-
-std::vector<int> read_tokens(const JsonNode& node, std::size_t items) {
-  return node.map([&](const JsonNode& token) {
-    const auto value = token.integer(cover::kUnresolved, static_cast<std::int64_t>(items) - 1);
-    if (value == cover::kSplitZ) token.fail("a plane cover is not cut in z");
-    return static_cast<int>(value);
-  });
-}
-
 SharedCover read_shared_cover(const JsonNode& node, std::size_t curves) {
   SharedCover cover;
   cover.root = node.member("root").box();
   cover.alive =
       node.member("alive").map([&](const JsonNode& list) { return list.indices(curves); });
-  cover.tokens = read_tokens(node.member("tokens"), cover.alive.size());
+  cover.tokens = read_tokens<2>(node.member("tokens"), cover.alive.size());
   return cover;
 }
 
@@ -118,7 +87,7 @@ LineCrossing read_line_crossing(const JsonNode& node, std::size_t lines, std::si
 
 Crossing read_crossing(const JsonNode& node, std::size_t curves, std::size_t cells) {
   Crossing crossing;
-  crossing.curves = read_pair(node.member("curves"), curves);
+  crossing.curves = read_ascending<2>(node.member("curves"), curves);
   crossing.point = {node.member("x").number(), node.member("y").number()};
   crossing.rounded = node.member("rounded").boolean();
   crossing.box = node.member("box").box();
@@ -172,53 +141,9 @@ Cell read_cell(const JsonNode& node, const Encasement& e, std::size_t crossings)
   return cell;
 }
 
-/// Children come after their parents and each has one parent, so that walks down the history end.
-std::vector<Split> read_history(const JsonNode& node, std::size_t lines, std::size_t cells) {
-  const int count = node.size();
-  std::vector<bool> node_seen(count), cell_seen(cells);
-  std::vector<Split> history(count);
-  for (int k = 0; k < count; ++k) {
-    const JsonNode split = node.item(k);
-    split.of_size(3);
-    history[k].line = split.item(0).index(lines);
-    const auto read_child = [&](const JsonNode& child) {
-      const int index =
-          static_cast<int>(child.integer(-static_cast<std::int64_t>(cells), count - 1));
-      if (index >= 0 && index <= k) child.fail("a cut refers to one that is not after it");
-      std::vector<bool>& seen = index >= 0 ? node_seen : cell_seen;
-      const std::size_t slot = index >= 0 ? index : ~index;
-      if (seen[slot]) child.fail("a piece has two parents");
-      seen[slot] = true;
-      return index;
-    };
-    history[k].negative = read_child(split.item(1));
-    history[k].positive = read_child(split.item(2));
-  }
-  return history;
-}
-
-std::vector<Unresolved> read_unresolved(const JsonNode& node, const Encasement& e) {
-  return node.map([&](const JsonNode& item) {
-    Unresolved place;
-    place.kind = item.member("kind").one_of(kUnresolvedKinds);
-    const JsonNode box = item.member("box");
-    place.has_box = !box.is_null();
-    if (place.has_box) place.box = box.box();
-    place.curves = item.member("curves").indices(names_input_curves(place.kind) ? e.input.size()
-                                                                                : e.curves.size());
-    place.proved = item.member("proved").boolean();
-    place.reason = item.member("reason").text();
-    return place;
-  });
-}
-
 Statistics read_statistics(const JsonNode& node) {
   Statistics s;
-  const JsonNode decisions = node.member("decisions");
-  s.decisions.by_double = decisions.member("by_double").count();
-  s.decisions.by_mpfr = decisions.member("by_mpfr").count();
-  s.decisions.by_exact = decisions.member("by_exact").count();
-  s.decisions.undecided = decisions.member("undecided").count();
+  s.decisions = read_decisions(node.member("decisions"));
   if (node.has("pairs_met")) {
     s.pairs_met = node.member("pairs_met").count();
     s.pairs_isolated = node.member("pairs_isolated").count();
@@ -285,13 +210,13 @@ Encasement read_encasement(const JsonNode& root) {
   if (covers.has("shared"))
     e.shared_cover = read_shared_cover(covers.member("shared"), e.curves.size());
   e.crossing_covers = covers.member("crossings").map([&](const JsonNode& item) {
-    return CrossingCover{read_pair(item.member("curves"), e.curves.size()),
+    return CrossingCover{read_ascending<2>(item.member("curves"), e.curves.size()),
                          item.member("root").box(),
-                         read_tokens(item.member("tokens"), e.crossings.size())};
+                         read_tokens<2>(item.member("tokens"), e.crossings.size())};
   });
   e.critical_covers = covers.member("critical").map([&](const JsonNode& item) {
     return CriticalCover{item.member("curve").index(e.curves.size()), item.member("root").box(),
-                         read_tokens(item.member("tokens"), e.critical_regions.size())};
+                         read_tokens<2>(item.member("tokens"), e.critical_regions.size())};
   });
   e.infinity = root.member("infinity").map([&](const JsonNode& item) {
     InfinityPiece piece;
@@ -301,8 +226,12 @@ Encasement read_encasement(const JsonNode& root) {
     piece.curve = item.member("curve").index_or_null(e.curves.size());
     return piece;
   });
-  e.degenerate = read_unresolved(root.member("degenerate"), e);
-  e.undecided = read_unresolved(root.member("undecided"), e);
+  const auto unresolved = [&](const char* key) {
+    return read_unresolved(root.member(key), "curves", &Unresolved::curves, e.input.size(),
+                           e.curves.size());
+  };
+  e.degenerate = unresolved("degenerate");
+  e.undecided = unresolved("undecided");
   e.statistics = read_statistics(root.member("statistics"));
   return e;
 }

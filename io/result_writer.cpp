@@ -7,9 +7,9 @@
 
 #include "arrangement_json.hpp"
 #include "encase/result_json.hpp"
-#include "function_json.hpp"
 #include "json_writer.hpp"
 #include "names.hpp"
+#include "result_parts.hpp"
 
 namespace encase {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 void put_region(JsonWriter& w, const Region& region) {
   if (region.plane) return w.put("plane");
   w.raw("{\"polygon\":");
-  w.list(region.corners);
+  put_polygon(w, region);
   w.raw("}");
 }
 
@@ -78,28 +78,11 @@ void put_cell(JsonWriter& w, const Cell& cell, int id) {
   w.raw("}");
 }
 
-void put_unresolved(JsonWriter& w, const std::vector<Unresolved>& places) {
-  w.lines(places, [&](const Unresolved& place) {
-    w.raw("{");
-    w.field("kind", name_of(kUnresolvedKinds, place.kind));
-    w.key("box");
-    if (place.has_box)
-      w.put(place.box);
-    else
-      w.raw("null");
-    w.field("curves", place.curves);
-    w.field("proved", place.proved);
-    w.field("reason", place.reason);
-    w.raw("}");
-  });
-}
-
 void put_covers(JsonWriter& w, const Encasement& e) {
   w.raw("{");
   if (!e.shared_cover.tokens.empty()) {
     w.raw("\"shared\":{");
-    w.field("root", e.shared_cover.root);
-    w.field("tokens", e.shared_cover.tokens);
+    put_cover(w, e.shared_cover.root, e.shared_cover.tokens);
     w.key("alive"), w.list(e.shared_cover.alive);
     w.raw("},\n");
   }
@@ -107,16 +90,14 @@ void put_covers(JsonWriter& w, const Encasement& e) {
   w.lines(e.crossing_covers, [&](const CrossingCover& cover) {
     w.raw("{");
     w.field("curves", cover.curves);
-    w.field("root", cover.root);
-    w.field("tokens", cover.tokens);
+    put_cover(w, cover.root, cover.tokens);
     w.raw("}");
   });
   w.raw(",\n\"critical\":");
   w.lines(e.critical_covers, [&](const CriticalCover& cover) {
     w.raw("{");
     w.field("curve", cover.curve);
-    w.field("root", cover.root);
-    w.field("tokens", cover.tokens);
+    put_cover(w, cover.root, cover.tokens);
     w.raw("}");
   });
   w.raw("}");
@@ -124,12 +105,8 @@ void put_covers(JsonWriter& w, const Encasement& e) {
 
 /// The counts of pairs as well unless there is one pair at most: then they follow from its cover.
 void put_statistics(JsonWriter& w, const Statistics& s, bool with_pairs) {
-  w.raw("{\"decisions\":{");
-  w.field("by_double", s.decisions.by_double);
-  w.field("by_mpfr", s.decisions.by_mpfr);
-  w.field("by_exact", s.decisions.by_exact);
-  w.field("undecided", s.decisions.undecided);
-  w.raw("}");
+  w.raw("{");
+  put_decisions(w, s.decisions);
   if (with_pairs) {
     w.field("pairs_met", s.pairs_met);
     w.field("pairs_isolated", s.pairs_isolated);
@@ -149,14 +126,8 @@ void put_statistics(JsonWriter& w, const Statistics& s, bool with_pairs) {
 void put_source(JsonWriter& w, const SliceSource& source) {
   w.raw("{");
   w.field("plane", source.chart.plane());
-  w.key("region"), w.raw("{\"halfspaces\":"), w.list(source.region.sides), w.raw("}");
-  w.raw(",\"surfaces\":");
-  w.lines(source.surfaces, [&](const NamedSurface& surface) {
-    w.raw("{");
-    w.field("name", surface.name);
-    put_function(w, surface.function);
-    w.raw("}");
-  });
+  w.key("region"), put_solid_region(w, source.region);
+  w.key("surfaces"), put_functions(w, source.surfaces);
   w.field("surface_of", source.surface_of);
   w.field("containing", source.containing);
   w.raw("}");
@@ -166,43 +137,22 @@ void put_source(JsonWriter& w, const SliceSource& source) {
 std::string write_result(const Encasement& e, const Arrangement* arrangement,
                          const SliceSource* source) {
   JsonWriter w;
-  w.raw("{\n");
-  w.field("format", "encase-result");
-  const auto top = [&w](const char* key) {
-    w.raw(",\n");
-    w.key(key);
-  };
-  top("version"), w.put(kResultVersion);
-  top("command"), w.put(source ? "slice" : "curves");
-  top("status"), w.put(name_of(kOutcomes, e.outcome));
-  top("input"), w.raw("{\"curves\":");
-  w.lines(e.input, [&](const NamedCurve& curve) {
-    w.raw("{");
-    w.field("name", curve.name);
-    put_function(w, curve.function);
-    w.raw("}");
-  });
+  put_head(w, source ? "slice" : "curves", name_of(kOutcomes, e.outcome));
+  w.section("input"), w.raw("{\"curves\":"), put_functions(w, e.input);
   w.field("delta", e.perturbation);
   w.field("seed", e.seed);
   w.raw("}");
-  if (source) top("slice"), put_source(w, *source);
-  top("curves");
-  w.lines(e.curves, [&](const Curve& curve) {
-    w.raw("{");
-    w.field("name", curve.name);
-    put_function(w, curve.function);
-    w.field("sources", curve.sources);
-    w.raw("}");
-  });
-  top("region"), put_region(w, e.region);
-  top("region_used"), put_region(w, e.region_used);
-  top("lines"), w.lines(e.lines, [&](const Line& line) { put_line(w, line); });
+  if (source) w.section("slice"), put_source(w, *source);
+  w.section("curves"), put_encased(w, e.curves);
+  w.section("region"), put_region(w, e.region);
+  w.section("region_used"), put_region(w, e.region_used);
+  w.section("lines"), w.lines(e.lines, [&](const Line& line) { put_line(w, line); });
   int id = 0;
-  top("crossings");
+  w.section("crossings");
   w.lines(e.crossings, [&](const Crossing& crossing) { put_crossing(w, crossing, id++); });
   id = 0;
-  top("cells"), w.lines(e.cells, [&](const Cell& cell) { put_cell(w, cell, id++); });
-  top("crossings_on_lines");
+  w.section("cells"), w.lines(e.cells, [&](const Cell& cell) { put_cell(w, cell, id++); });
+  w.section("crossings_on_lines");
   w.lines(e.line_crossings, [&](const LineCrossing& crossing) {
     w.raw("{");
     w.field("line", crossing.line);
@@ -210,7 +160,7 @@ std::string write_result(const Encasement& e, const Arrangement* arrangement,
     w.field("interval", std::array<double, 2>{crossing.lo, crossing.hi});
     w.raw("}");
   });
-  top("critical");
+  w.section("critical");
   w.lines(e.critical_regions, [&](const CriticalRegion& region) {
     w.raw("{");
     w.field("curve", region.curve);
@@ -218,12 +168,9 @@ std::string write_result(const Encasement& e, const Arrangement* arrangement,
     w.key("boxes"), w.list(region.boxes);
     w.raw("}");
   });
-  top("covers"), put_covers(w, e);
-  top("history");
-  w.lines(e.history, [&](const Split& split) {
-    w.put(std::array<int, 3>{split.line, split.negative, split.positive});
-  });
-  top("infinity");
+  w.section("covers"), put_covers(w, e);
+  w.section("history"), put_history(w, e.history);
+  w.section("infinity");
   w.lines(e.infinity, [&](const InfinityPiece& piece) {
     w.raw("{");
     w.field("chart", piece.chart);
@@ -232,10 +179,10 @@ std::string write_result(const Encasement& e, const Arrangement* arrangement,
     w.key("curve"), w.put_index(piece.curve);
     w.raw("}");
   });
-  top("degenerate"), put_unresolved(w, e.degenerate);
-  top("undecided"), put_unresolved(w, e.undecided);
-  if (arrangement) top("arrangement"), put_arrangement(w, *arrangement);
-  top("statistics"), put_statistics(w, e.statistics, !e.shared_cover.tokens.empty());
+  w.section("degenerate"), put_unresolved(w, e.degenerate, "curves", &Unresolved::curves);
+  w.section("undecided"), put_unresolved(w, e.undecided, "curves", &Unresolved::curves);
+  if (arrangement) w.section("arrangement"), put_arrangement(w, *arrangement);
+  w.section("statistics"), put_statistics(w, e.statistics, !e.shared_cover.tokens.empty());
   w.raw("\n}\n");
   return w.take();
 }

@@ -6,28 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "encase/cover.hpp"
 #include "encase/result_json.hpp"
-#include "io/function_json.hpp"
 #include "io/json_node.hpp"
 #include "io/names.hpp"
+#include "io/result_parts.hpp"
 #include "io/surface_json.hpp"
 #include "io/surface_names.hpp"
 
 namespace encase {
 namespace {
-
-Polyhedron read_region(const JsonNode& node) {
-  const JsonNode sides = node.member("halfspaces");
-  auto region = make_polyhedron(sides.map([](const JsonNode& side) {
-    side.of_size(4);
-    HalfSpace read;
-    for (int k = 0; k < 4; ++k) read[k] = side.item(k).rational();
-    return read;
-  }));
-  if (!region) sides.fail(region.error().message);
-  return std::move(region).value();
-}
 
 Plane read_plane(const JsonNode& node) {
   node.of_size(4);
@@ -48,28 +35,10 @@ Plane read_plane(const JsonNode& node) {
   return plane;
 }
 
-template <std::size_t N>
-std::array<int, N> read_ascending(const JsonNode& node, std::size_t surfaces) {
-  node.of_size(static_cast<int>(N));
-  std::array<int, N> read;
-  for (std::size_t k = 0; k < N; ++k) {
-    read[k] = node.item(static_cast<int>(k)).index(surfaces);
-    if (k > 0 && read[k] <= read[k - 1]) node.fail("expected surfaces in ascending order");
-  }
-  return read;
-}
-
 /// Two indices, the second of which may be missing.
 std::array<int, 2> read_one_or_two(const JsonNode& node, std::size_t size) {
   node.of_size(2);
   return {node.item(0).index(size), node.item(1).index_or_null(size)};
-}
-
-std::vector<int> read_tokens(const JsonNode& node, std::size_t items) {
-  return node.map([&](const JsonNode& token) {
-    return static_cast<int>(
-        token.integer(cover::kUnresolved, static_cast<std::int64_t>(items) - 1));
-  });
 }
 
 /// How long the lists are that others refer to.
@@ -139,13 +108,7 @@ Facet read_facet(const JsonNode& node, const SurfaceEncasement& e, const Counts&
   const JsonNode cells = node.member("cells");
   cells.of_size(2);
   for (int k = 0; k < 2; ++k) facet.cells[k] = cells.item(k).index_or_null(counts.cells);
-  const JsonNode polygon = node.member("polygon");
-  auto region = make_region(polygon.map([](const JsonNode& corner) {
-    corner.of_size(2);
-    return RationalPoint<2>{corner.item(0).rational(), corner.item(1).rational()};
-  }));
-  if (!region) polygon.fail(region.error().message);
-  facet.polygon = std::move(region).value();
+  facet.polygon = read_polygon(node.member("polygon"));
   facet.side_planes = node.member("side_planes").indices(e.planes.size());
   node.member("side_planes").of_size(facet.polygon.side_count());
   facet.surfaces = node.member("surfaces").indices(e.surfaces.size());
@@ -172,7 +135,7 @@ CurveCriticalPoints read_critical(const JsonNode& node, std::size_t surfaces) {
   critical.direction = node.member("direction").point<3>();
   critical.points = node.member("points").map([](const JsonNode& box) { return box.box<3>(); });
   critical.root = node.member("root").box<3>();
-  critical.tokens = read_tokens(node.member("tokens"), critical.points.size());
+  critical.tokens = read_tokens<3>(node.member("tokens"), critical.points.size());
   return critical;
 }
 
@@ -205,54 +168,9 @@ void read_certificates(const JsonNode& node, SurfaceEncasement* e) {
   });
 }
 
-/// Children come after their parents and each has one parent, so that walks down the history end.
-std::vector<Split> read_history(const JsonNode& node, std::size_t planes, std::size_t cells) {
-  const int count = node.size();
-  std::vector<bool> node_seen(count), cell_seen(cells);
-  std::vector<Split> history(count);
-  for (int k = 0; k < count; ++k) {
-    const JsonNode split = node.item(k);
-    split.of_size(3);
-    history[k].line = split.item(0).index(planes);
-    const auto read_child = [&](const JsonNode& child) {
-      const int index =
-          static_cast<int>(child.integer(-static_cast<std::int64_t>(cells), count - 1));
-      if (index >= 0 && index <= k) child.fail("a cut refers to one that is not after it");
-      std::vector<bool>& seen = index >= 0 ? node_seen : cell_seen;
-      const std::size_t slot = index >= 0 ? index : ~index;
-      if (seen[slot]) child.fail("a piece has two parents");
-      seen[slot] = true;
-      return index;
-    };
-    history[k].negative = read_child(split.item(1));
-    history[k].positive = read_child(split.item(2));
-  }
-  return history;
-}
-
-std::vector<UnresolvedInSpace> read_unresolved(const JsonNode& node, const SurfaceEncasement& e) {
-  return node.map([&](const JsonNode& item) {
-    UnresolvedInSpace place;
-    place.kind = item.member("kind").one_of(kUnresolvedKinds);
-    const JsonNode box = item.member("box");
-    place.has_box = !box.is_null();
-    if (place.has_box) place.box = box.box<3>();
-    place.surfaces =
-        item.member("surfaces")
-            .indices(names_input_curves(place.kind) ? e.input.size() : e.surfaces.size());
-    place.proved = item.member("proved").boolean();
-    place.reason = item.member("reason").text();
-    return place;
-  });
-}
-
 SpaceStatistics read_statistics(const JsonNode& node) {
   SpaceStatistics s;
-  const JsonNode decisions = node.member("decisions");
-  s.decisions.by_double = decisions.member("by_double").count();
-  s.decisions.by_mpfr = decisions.member("by_mpfr").count();
-  s.decisions.by_exact = decisions.member("by_exact").count();
-  s.decisions.undecided = decisions.member("undecided").count();
+  s.decisions = read_decisions(node.member("decisions"));
   s.point_boxes = node.member("point_boxes").count();
   s.critical_boxes = node.member("critical_boxes").count();
   s.certificate_tests = node.member("certificate_tests").count();
@@ -274,8 +192,8 @@ StoredSurfaces read_surfaces(const JsonNode& root) {
     return Surface{surface.member("name").text(), read_function<3>(surface),
                    surface.member("sources").indices(e.input.size())};
   });
-  e.region = read_region(root.member("region"));
-  e.region_used = read_region(root.member("region_used"));
+  e.region = read_solid_region(root.member("region"));
+  e.region_used = read_solid_region(root.member("region_used"));
   e.planes = root.member("planes").map(read_plane);
   if (e.planes.size() < e.region_used.sides.size())
     root.member("planes").fail("the sides of the region used are missing");
@@ -298,7 +216,7 @@ StoredSurfaces read_surfaces(const JsonNode& root) {
   e.triple_point_covers = covers.member("points").map([&](const JsonNode& item) {
     return TriplePointCover{read_ascending<3>(item.member("surfaces"), surfaces),
                             item.member("root").box<3>(),
-                            read_tokens(item.member("tokens"), e.triple_points.size())};
+                            read_tokens<3>(item.member("tokens"), e.triple_points.size())};
   });
   e.critical_points = covers.member("critical").map([&](const JsonNode& item) {
     return read_critical(item, surfaces);
@@ -306,8 +224,12 @@ StoredSurfaces read_surfaces(const JsonNode& root) {
   read_certificates(root.member("certificates"), &e);
   e.cells = root.member("cells").map([&](const JsonNode& item) { return read_cell(item, e); });
   e.history = read_history(root.member("history"), e.planes.size(), counts.cells);
-  e.degenerate = read_unresolved(root.member("degenerate"), e);
-  e.undecided = read_unresolved(root.member("undecided"), e);
+  const auto unresolved = [&](const char* key) {
+    return read_unresolved(root.member(key), "surfaces", &UnresolvedInSpace::surfaces,
+                           e.input.size(), surfaces);
+  };
+  e.degenerate = unresolved("degenerate");
+  e.undecided = unresolved("undecided");
   e.statistics = read_statistics(root.member("statistics"));
   if (root.has("arrangement")) stored.arrangement = read_arrangement(root.member("arrangement"), e);
   return stored;

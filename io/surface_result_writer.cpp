@@ -5,18 +5,14 @@
 #include "encase/intersection_curves.hpp"
 #include "encase/result_json.hpp"
 #include "encase/surface_result_json.hpp"
-#include "io/function_json.hpp"
 #include "io/json_writer.hpp"
 #include "io/names.hpp"
+#include "io/result_parts.hpp"
 #include "io/surface_json.hpp"
 #include "io/surface_names.hpp"
 
 namespace encase {
 namespace {
-
-void put_region(JsonWriter& w, const Polyhedron& region) {
-  w.raw("{\"halfspaces\":"), w.list(region.sides), w.raw("}");
-}
 
 void put_plane(JsonWriter& w, const Plane& plane) {
   if (plane.rational)
@@ -67,7 +63,7 @@ void put_facet(JsonWriter& w, const Facet& facet, int id) {
   w.field("id", id);
   w.field("plane", facet.plane);
   w.key("cells"), w.list(facet.cells, [&](int cell) { w.put_index(cell); });
-  w.key("polygon"), w.list(facet.polygon.corners);
+  w.key("polygon"), put_polygon(w, facet.polygon);
   w.field("side_planes", facet.side_planes);
   w.field("surfaces", facet.surfaces);
   w.key("points"), w.list(facet.points, [&](int point) { w.put_index(point); });
@@ -123,8 +119,7 @@ void put_covers(JsonWriter& w, const SurfaceEncasement& e) {
   w.lines(e.triple_point_covers, [&](const TriplePointCover& cover) {
     w.raw("{");
     w.field("surfaces", cover.surfaces);
-    w.field("root", cover.root);
-    w.field("tokens", cover.tokens);
+    put_cover(w, cover.root, cover.tokens);
     w.raw("}");
   });
   w.raw(",\n\"critical\":");
@@ -133,8 +128,7 @@ void put_covers(JsonWriter& w, const SurfaceEncasement& e) {
     w.field("surfaces", critical.surfaces);
     w.field("direction", critical.direction);
     w.key("points"), w.list(critical.points);
-    w.field("root", critical.root);
-    w.field("tokens", critical.tokens);
+    put_cover(w, critical.root, critical.tokens);
     w.raw("}");
   });
   w.raw("}");
@@ -175,29 +169,9 @@ void put_certificates(JsonWriter& w, const SurfaceEncasement& e) {
   w.raw("}");
 }
 
-void put_unresolved(JsonWriter& w, const std::vector<UnresolvedInSpace>& places) {
-  w.lines(places, [&](const UnresolvedInSpace& place) {
-    w.raw("{");
-    w.field("kind", name_of(kUnresolvedKinds, place.kind));
-    w.key("box");
-    if (place.has_box)
-      w.put(place.box);
-    else
-      w.raw("null");
-    w.field("surfaces", place.surfaces);
-    w.field("proved", place.proved);
-    w.field("reason", place.reason);
-    w.raw("}");
-  });
-}
-
 void put_statistics(JsonWriter& w, const SpaceStatistics& s) {
-  w.raw("{\"decisions\":{");
-  w.field("by_double", s.decisions.by_double);
-  w.field("by_mpfr", s.decisions.by_mpfr);
-  w.field("by_exact", s.decisions.by_exact);
-  w.field("undecided", s.decisions.undecided);
-  w.raw("}");
+  w.raw("{");
+  put_decisions(w, s.decisions);
   w.field("point_boxes", s.point_boxes);
   w.field("critical_boxes", s.critical_boxes);
   w.field("certificate_tests", s.certificate_tests);
@@ -210,51 +184,27 @@ void put_statistics(JsonWriter& w, const SpaceStatistics& s) {
 
 std::string to_json(const SurfaceEncasement& e, const SpaceArrangement* arrangement) {
   JsonWriter w;
-  w.raw("{\n");
-  w.field("format", "encase-result");
-  const auto top = [&w](const char* key) {
-    w.raw(",\n");
-    w.key(key);
-  };
-  top("version"), w.put(kResultVersion);
-  top("command"), w.put("surfaces");
-  top("status"), w.put(name_of(kOutcomes, e.outcome));
-  top("input"), w.raw("{\"surfaces\":");
-  w.lines(e.input, [&](const NamedSurface& surface) {
-    w.raw("{");
-    w.field("name", surface.name);
-    put_function(w, surface.function);
-    w.raw("}");
-  });
-  w.raw("}");
-  top("surfaces");
-  w.lines(e.surfaces, [&](const Surface& surface) {
-    w.raw("{");
-    w.field("name", surface.name);
-    put_function(w, surface.function);
-    w.field("sources", surface.sources);
-    w.raw("}");
-  });
-  top("region"), put_region(w, e.region);
-  top("region_used"), put_region(w, e.region_used);
-  top("planes"), w.lines(e.planes, [&](const Plane& plane) { put_plane(w, plane); });
-  top("points"), put_points(w, e);
-  top("intersection_curves"), put_curves(w, e);
+  put_head(w, "surfaces", name_of(kOutcomes, e.outcome));
+  w.section("input"), w.raw("{\"surfaces\":"), put_functions(w, e.input), w.raw("}");
+  w.section("surfaces"), put_encased(w, e.surfaces);
+  w.section("region"), put_solid_region(w, e.region);
+  w.section("region_used"), put_solid_region(w, e.region_used);
+  w.section("planes"), w.lines(e.planes, [&](const Plane& plane) { put_plane(w, plane); });
+  w.section("points"), put_points(w, e);
+  w.section("intersection_curves"), put_curves(w, e);
   int id = 0;
-  top("cells"), w.lines(e.cells, [&](const SpaceCell& cell) { put_cell(w, cell, id++); });
+  w.section("cells"), w.lines(e.cells, [&](const SpaceCell& cell) { put_cell(w, cell, id++); });
   id = 0;
-  top("facets"), w.lines(e.facets, [&](const Facet& facet) { put_facet(w, facet, id++); });
-  top("facet_points"), put_facet_points(w, e);
-  top("covers"), put_covers(w, e);
-  top("certificates"), put_certificates(w, e);
-  top("history");
-  w.lines(e.history, [&](const Split& split) {
-    w.put(std::array<int, 3>{split.line, split.negative, split.positive});
-  });
-  if (arrangement) top("arrangement"), put_arrangement(w, *arrangement);
-  top("degenerate"), put_unresolved(w, e.degenerate);
-  top("undecided"), put_unresolved(w, e.undecided);
-  top("statistics"), put_statistics(w, e.statistics);
+  w.section("facets"), w.lines(e.facets, [&](const Facet& facet) { put_facet(w, facet, id++); });
+  w.section("facet_points"), put_facet_points(w, e);
+  w.section("covers"), put_covers(w, e);
+  w.section("certificates"), put_certificates(w, e);
+  w.section("history"), put_history(w, e.history);
+  if (arrangement) w.section("arrangement"), put_arrangement(w, *arrangement);
+  w.section("degenerate"),
+      put_unresolved(w, e.degenerate, "surfaces", &UnresolvedInSpace::surfaces);
+  w.section("undecided"), put_unresolved(w, e.undecided, "surfaces", &UnresolvedInSpace::surfaces);
+  w.section("statistics"), put_statistics(w, e.statistics);
   w.raw("\n}\n");
   return w.take();
 }

@@ -283,23 +283,6 @@ bool check_structure(Claims& claims) {
   return claims.report.ok();
 }
 
-void check_outcome(Claims& claims) {
-  const Encasement& e = claims.result;
-  bool settled = true, undecided = !e.undecided.empty();
-  for (const Cell& cell : e.cells) {
-    settled = settled && certified(cell);
-    undecided = undecided || cell.state == CellState::Undecided;
-  }
-  const Outcome outcome = undecided                         ? Outcome::Undecided
-                          : settled && e.degenerate.empty() ? Outcome::Certified
-                                                            : Outcome::Degenerate;
-  claims.require(e.outcome == outcome, "The outcome should be ",
-                 outcome == Outcome::Certified   ? "certified"
-                 : outcome == Outcome::Undecided ? "undecided"
-                                                 : "degenerate",
-                 ", as the cells and the unresolved entries are.");
-}
-
 }  // namespace verification
 
 Verification verify(const Encasement& encasement, const VerifyOptions& options) {
@@ -313,7 +296,7 @@ Verification verify(const Encasement& encasement, const VerifyOptions& options) 
   for (const Curve& curve : encasement.curves) claims.curves.emplace_back(curve.function);
 
   // The cheap statements that everything refers to.
-  check_outcome(claims);
+  check_outcome(claims, encasement);
   check_curves(claims);
   if (!check_regions(claims) || claims.full()) return claims.report;
 

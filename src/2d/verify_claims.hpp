@@ -53,6 +53,12 @@ struct Reporter {
     }
     return false;
   }
+  /// Takes over what another verification found, of an item that is named.
+  void include(const std::string& of, const Verification& other) {
+    report.claims += other.claims;
+    for (const std::string& objection : other.objections)
+      if (!full()) report.objections.push_back(of + ": " + objection);
+  }
   /// Enough objections: checking more would only take time.
   bool full() const { return static_cast<int>(report.objections.size()) >= max_objections; }
 
@@ -133,7 +139,9 @@ struct Partition {
   bool complete = false;
 };
 
-inline bool certified(const Cell& cell) {
+/// `AnyCell`: Cell or SpaceCell; those of space are never relaxed.
+template <class AnyCell>
+bool certified(const AnyCell& cell) {
   return cell.state == CellState::Certified || cell.state == CellState::Relaxed;
 }
 
@@ -179,8 +187,23 @@ void check_critical_covers(Claims& claims);
 /// certificate, and no unresolved box meets one.
 void check_cells(Claims& claims, const Partition& partition);
 
-/// The outcome is what the lists and the cells make it.
-void check_outcome(Claims& claims);
+/// The outcome is what the lists and the cells make it. `E`: Encasement or SurfaceEncasement.
+template <class E>
+void check_outcome(Reporter& reporter, const E& e) {
+  bool settled = true, undecided = !e.undecided.empty();
+  for (const auto& cell : e.cells) {
+    settled = settled && certified(cell);
+    undecided = undecided || cell.state == CellState::Undecided;
+  }
+  const Outcome outcome = undecided                         ? Outcome::Undecided
+                          : settled && e.degenerate.empty() ? Outcome::Certified
+                                                            : Outcome::Degenerate;
+  reporter.require(e.outcome == outcome, "The outcome should be ",
+                   outcome == Outcome::Certified   ? "certified"
+                   : outcome == Outcome::Undecided ? "undecided"
+                                                   : "degenerate",
+                   ", as the cells and the unresolved entries are.");
+}
 
 /// The parts of a certified result fit together to an arrangement, of which Euler's relation and
 /// the other rules of `check` hold.

@@ -17,34 +17,10 @@
 namespace encase::verification {
 
 /// What all checks share.
-struct SpaceClaims {
+struct SpaceClaims : Reporter {
   SpaceClaims(const SurfaceEncasement& e, const VerifyOptions& o)
-      : result(e), options(o), charts(e.planes) {
+      : Reporter(o), result(e), options(o), charts(e.planes) {
     kernel.max_bits = o.max_bits;
-  }
-
-  /// As Claims'.
-  template <class... Parts>
-  bool require(bool proved, const Parts&... parts) {
-    if (proved) {
-      ++report.claims;
-      return true;
-    }
-    if (!full()) {
-      std::string sentence;
-      (append(sentence, parts), ...);
-      report.objections.push_back(std::move(sentence));
-    }
-    return false;
-  }
-  /// Takes over what another verification found, of an item that is named.
-  void include(const std::string& of, const Verification& other) {
-    report.claims += other.claims;
-    for (const std::string& objection : other.objections)
-      if (!full()) report.objections.push_back(of + ": " + objection);
-  }
-  bool full() const {
-    return static_cast<int>(report.objections.size()) >= std::max(1, options.max_objections);
   }
 
   const SpaceCell& cell(int index) const { return result.cells[static_cast<std::size_t>(index)]; }
@@ -60,10 +36,7 @@ struct SpaceClaims {
   std::vector<Box<3>> leaf_box;  ///< of every cell, from the history; by replay_space_history
   PlaneCharts charts;
   Kernel kernel;
-  Verification report;
 };
-
-inline bool certified(const SpaceCell& cell) { return cell.state == CellState::Certified; }
 
 /// Every index is in range, every number finite, every box ordered, every enumerator named. All
 /// later checks rely on it: false ends the verification.
@@ -95,8 +68,5 @@ bool check_facets(SpaceClaims& claims);
 /// Every certified cell has certificates for all its surfaces and pairs, and its patches and arcs
 /// are what is read from its facets.
 void check_space_cells(SpaceClaims& claims);
-
-/// The outcome is what the lists and the cells make it.
-void check_space_outcome(SpaceClaims& claims);
 
 }  // namespace encase::verification

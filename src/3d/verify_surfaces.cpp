@@ -322,23 +322,6 @@ void check_surfaces(SpaceClaims& claims) {
   check_components(claims, repeated);
 }
 
-void check_space_outcome(SpaceClaims& claims) {
-  const SurfaceEncasement& e = claims.result;
-  bool settled = true, undecided = !e.undecided.empty();
-  for (const SpaceCell& cell : e.cells) {
-    settled = settled && certified(cell);
-    undecided = undecided || cell.state == CellState::Undecided;
-  }
-  const Outcome outcome = undecided                         ? Outcome::Undecided
-                          : settled && e.degenerate.empty() ? Outcome::Certified
-                                                            : Outcome::Degenerate;
-  claims.require(e.outcome == outcome, "The outcome should be ",
-                 outcome == Outcome::Certified   ? "certified"
-                 : outcome == Outcome::Undecided ? "undecided"
-                                                 : "degenerate",
-                 ", as the cells and the unresolved entries are.");
-}
-
 }  // namespace verification
 
 Verification verify(const SurfaceEncasement& encasement, const VerifyOptions& options) {
@@ -351,7 +334,7 @@ Verification verify(const SurfaceEncasement& encasement, const VerifyOptions& op
   for (const Surface& surface : encasement.surfaces) claims.surfaces.emplace_back(surface.function);
 
   // What everything refers to: the surfaces, the region, its partition.
-  check_space_outcome(claims);
+  check_outcome(claims, encasement);
   check_surfaces(claims);
   if (!check_space_regions(claims) || !replay_space_history(claims)) return claims.report;
 
