@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,22 +45,8 @@ Status check_options(const CurvesRequest& r) {
     return bad_input("--start-bits is above --max-bits");
   if (!(r.options.perturbation >= 0 && r.options.perturbation < 1))
     return bad_input("--perturb must be between 0 and 1");
-  return {};
-}
-
-/// The mesh's format is known, and all that is asked for can be written.
-Status check_files(const CurvesRequest& r) {
-  if (!r.mesh.empty()) {
-#ifdef ENCASE_HAVE_OPEN_MESH
-    const std::string extension = std::filesystem::path(r.mesh).extension().string();
-    if (extension != ".om" && extension != ".off" && extension != ".obj" && extension != ".ply")
-      return bad_input("--mesh writes .om, .off, .obj or .ply, not '" + r.mesh + "'");
-#else
-    return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
-#endif
-  }
-  if (const Status status = check_outputs(r)) return status;
-  return check_writable(r.mesh);
+  if (const Status status = check_mesh_output(r.mesh)) return status;
+  return check_outputs(r);
 }
 
 struct Input {
@@ -164,7 +149,6 @@ Status write_report(const CurvesRequest& r, const Answer& answer,
 
 ExitCode run_curves(CurvesRequest request) {
   if (const Status status = check_options(request)) return fail(*status);
-  if (const Status status = check_files(request)) return fail(*status);
   const auto input = read(request);
   if (!input) return fail(input.error());
 

@@ -3,6 +3,7 @@
 // The command `encase`: options in, one of the subcommands called. docs/command.md is its contract.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -24,6 +25,13 @@ constexpr int kMostThreads = 1024;
 constexpr char kExitCodes[] =
     "Exit codes: 0 certified, 1 usage or bad input, 2 files, 3 something degenerate is reported,\n"
     "4 something is undecided, 5 internal error.";
+
+constexpr char kSolidRegion[] = "\"box x0 x1 y0 y1 z0 z1\" or \"halfspaces (a,b,c,d) ...\"";
+
+constexpr char kSurfacesFile[] =
+    "FILE has lines `name: expression` or `expression` in x, y, z and `region: box x0 x1 y0 y1 z0\n"
+    "z1` or `region: halfspaces (a,b,c,d) ...`, each a x + b y + c z + d <= 0; # starts a\n"
+    "comment.\n\n";
 
 void add_threads(CLI::App& command, int& threads, const char* meaning) {
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
@@ -58,43 +66,60 @@ void add_budgets(CLI::App& command, Options& options) {
       ->capture_default_str();
 }
 
-void add_curves(CLI::App& app, encase::CurvesRequest& r) {
-  CLI::App* c = app.add_subcommand("curves", "Encase plane curves in a convex region");
-  c->add_option("FILE", r.file, "curves and region, as text or JSON; - is standard input");
-  c->add_option("-e", r.expressions, "a curve, instead of FILE: an expression or lhs = rhs")
+/// The FILE of `things`, one `thing`, or -e, and --region as `region_text` says.
+void add_input(CLI::App& command, encase::Request& r, const std::string& things,
+               const std::string& thing, const std::string& region_text) {
+  command.add_option("FILE", r.file, things + " and region, as text or JSON; - is standard input");
+  command.add_option("-e", r.expressions, thing + ", instead of FILE: an expression or lhs = rhs")
       ->type_name("EXPR")
       ->expected(1)
       ->take_all();
-  c->add_option(
-       "--region", r.region,
-       "\"xmin xmax ymin ymax\", \"polygon (x,y) (x,y) ...\" or \"plane\"; overrides the file's")
+  command.add_option("--region", r.region, region_text + "; overrides the file's")
       ->type_name("REGION");
+}
+
+void add_json(CLI::App& command, encase::Request& r, const char* meaning) {
+  command.add_option("--json", r.json, meaning)->type_name("FILE");
+}
+
+void add_vtk(CLI::App& command, encase::Request& r, const char* meaning) {
+  command.add_option("-o", r.vtk_directory, meaning)->type_name("DIR");
+}
+
+void add_perturbation(CLI::App& command, double& delta, std::uint64_t& seed) {
+  command.add_option("--perturb", delta, "perturb every coefficient c by up to DELTA (1 + |c|)")
+      ->type_name("DELTA")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--seed", seed, "of the perturbation")->type_name("N")->capture_default_str();
+}
+
+void add_reports(CLI::App& command, encase::Request& r) {
+  command.add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
+  command.add_flag("-q", r.quiet, "print no report");
+  command.add_flag("-v", r.verbose, "report what each step did");
+}
+
+void add_curves(CLI::App& app, encase::CurvesRequest& r) {
+  CLI::App* c = app.add_subcommand("curves", "Encase plane curves in a convex region");
+  add_input(*c, r, "curves", "a curve",
+            "\"xmin xmax ymin ymax\", \"polygon (x,y) (x,y) ...\" or \"plane\"");
   c->add_option("--onto", r.onto, "add the curves to those of an earlier result, in its region")
       ->type_name("RESULT");
-  c->add_option("--json", r.json, "write the result, everything that proves it included")
-      ->type_name("FILE");
+  add_json(*c, r, "write the result, everything that proves it included");
   c->add_option("--svg", r.svg, "write a picture")->type_name("FILE");
   c->add_flag("--faces", r.faces, "with --svg, --mesh: faces of the arrangement, not cells");
   c->add_flag("--labels", r.labels, "with --svg: the numbers of faces, edges and vertices");
   c->add_option("--mesh", r.mesh, "write the cells for OpenMesh: .om, .off, .obj or .ply")
       ->type_name("FILE");
-  c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");
+  add_vtk(*c, r, "write VTK files for ParaView");
   c->add_flag("--history", r.history, "with -o: the splitting as a .pvd with time steps");
-  c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
   c->add_flag("--fast", r.options.fast, "try fewer splitting lines: less time, more cells");
   c->add_flag("--relaxed", r.options.relaxed, "accept cells with two branches that do not cross");
-  c->add_option("--perturb", r.options.perturbation,
-                "perturb every coefficient c by up to DELTA (1 + |c|)")
-      ->type_name("DELTA")
-      ->check(CLI::PositiveNumber);
-  c->add_option("--seed", r.options.seed, "of the perturbation")
-      ->type_name("N")
-      ->capture_default_str();
+  add_perturbation(*c, r.options.perturbation, r.options.seed);
   add_budgets(*c, r.options);
   add_threads(*c, r.options.threads,
               "how many may work, of more than two curves; the result is the same for any number");
-  c->add_flag("-q", r.quiet, "print no report");
-  c->add_flag("-v", r.verbose, "report what each step did");
+  add_reports(*c, r);
   c->footer(
       "FILE has lines `name: expression` or `expression`, with ^ for powers and exact decimals or\n"
       "fractions, and `region: xmin xmax ymin ymax`, `region: polygon (x,y) (x,y) ...` or\n"
@@ -109,23 +134,15 @@ void add_caps(CLI::App& app, encase::CapsRequest& r) {
       "caps",
       "The arrangement of curves by a quadtree of a given depth (CAPS), also of curves "
       "with an inclusion function only");
-  c->add_option("FILE", r.file, "curves and region, as text or JSON; - is standard input");
-  c->add_option("-e", r.expressions, "a curve, instead of FILE: an expression or lhs = rhs")
-      ->type_name("EXPR")
-      ->expected(1)
-      ->take_all();
+  add_input(*c, r, "curves", "a curve", "\"xmin xmax ymin ymax\"");
   c->add_option("--epsilon", r.options.epsilon, "divide boxes until they are no wider than this")
       ->type_name("E")
       ->capture_default_str();
-  c->add_option("--region", r.region, "\"xmin xmax ymin ymax\"; overrides the file's")
-      ->type_name("REGION");
   c->add_flag("--self-crossings", r.options.self_crossings,
               "divide also where one curve may cross itself: for an exact answer");
-  c->add_option("--json", r.json, "write the result: the quadtree, its regions, the graph")
-      ->type_name("FILE");
+  add_json(*c, r, "write the result: the quadtree, its regions, the graph");
   c->add_option("--svg", r.svg, "write a picture")->type_name("FILE");
-  c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");
-  c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
+  add_vtk(*c, r, "write VTK files for ParaView");
   c->add_option("--max-boxes", r.options.max_boxes, "stop at so many nodes of the quadtree")
       ->type_name("N")
       ->check(CLI::PositiveNumber)
@@ -134,8 +151,7 @@ void add_caps(CLI::App& app, encase::CapsRequest& r) {
       ->type_name("S")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  c->add_flag("-q", r.quiet, "print no report");
-  c->add_flag("-v", r.verbose, "report what each step did");
+  add_reports(*c, r);
   c->footer(
       "Exit codes: 0 exact (proved), 1 usage or bad input, 2 files, 3 delta-weak only, 4 a budget\n"
       "ran out, 5 internal error.");
@@ -143,56 +159,30 @@ void add_caps(CLI::App& app, encase::CapsRequest& r) {
 
 void add_slice(CLI::App& app, encase::SliceRequest& r) {
   CLI::App* c = app.add_subcommand("slice", "Encase what surfaces have on a plane");
-  c->add_option("FILE", r.file, "surfaces and region, as text or JSON; - is standard input");
-  c->add_option("-e", r.expressions, "a surface, instead of FILE: an expression or lhs = rhs")
-      ->type_name("EXPR")
-      ->expected(1)
-      ->take_all();
+  add_input(*c, r, "surfaces", "a surface", kSolidRegion);
   c->add_option("--plane", r.plane, "\"a b c d\": the plane a x + b y + c z + d = 0")
       ->type_name("PLANE");
   c->add_option("--count", r.count, "so many planes parallel to it, evenly through the region")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  c->add_option("--region", r.region,
-                "\"box x0 x1 y0 y1 z0 z1\" or \"halfspaces (a,b,c,d) ...\"; overrides the file's")
-      ->type_name("REGION");
-  c->add_option("--json", r.json, "write the result, everything that proves it included")
-      ->type_name("FILE");
+  add_json(*c, r, "write the result, everything that proves it included");
   c->add_option("--svg", r.svg, "write a picture, in the plane's coordinates")->type_name("FILE");
-  c->add_option("-o", r.vtk_directory,
-                "write VTK files for ParaView, in space; of --count as time steps")
-      ->type_name("DIR");
-  c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
+  add_vtk(*c, r, "write VTK files for ParaView, in space; of --count as time steps");
   c->add_flag("--fast", r.options.fast, "try fewer splitting lines: less time, more cells");
   c->add_flag("--relaxed", r.options.relaxed, "accept cells with two branches that do not cross");
   add_budgets(*c, r.options);
   add_threads(*c, r.options.threads, "how many may work, of more than two curves on a plane");
-  c->add_flag("-q", r.quiet, "print no report");
-  c->add_flag("-v", r.verbose, "report what each step did");
-  c->footer(
-      "FILE has lines `name: expression` or `expression` in x, y, z and `region: box x0 x1 y0 y1 "
-      "z0 "
-      "z1`\n"
-      "or `region: halfspaces (a,b,c,d) ...`, each a x + b y + c z + d <= 0; # starts a "
-      "comment.\n\n" +
-      std::string(kExitCodes));
+  add_reports(*c, r);
+  c->footer(std::string(kSurfacesFile) + kExitCodes);
 }
 
 void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
   CLI::App* c = app.add_subcommand("surfaces", "Encase surfaces in a convex polyhedron");
-  c->add_option("FILE", r.file, "surfaces and region, as text or JSON; - is standard input");
-  c->add_option("-e", r.expressions, "a surface, instead of FILE: an expression or lhs = rhs")
-      ->type_name("EXPR")
-      ->expected(1)
-      ->take_all();
-  c->add_option("--region", r.region,
-                "\"box x0 x1 y0 y1 z0 z1\" or \"halfspaces (a,b,c,d) ...\"; overrides the file's")
-      ->type_name("REGION");
-  c->add_option("--json", r.json, "write the result, everything that proves it included")
-      ->type_name("FILE");
+  add_input(*c, r, "surfaces", "a surface", kSolidRegion);
+  add_json(*c, r, "write the result, everything that proves it included");
   c->add_option("--mesh", r.mesh, "write the surfaces for OpenMesh: .om, .off, .obj or .ply")
       ->type_name("FILE");
-  c->add_option("-o", r.vtk_directory, "write VTK files for ParaView")->type_name("DIR");
+  add_vtk(*c, r, "write VTK files for ParaView");
   c->add_flag("--history", r.history, "with -o: the splitting as a .pvd with time steps");
   c->add_option("--tolerance", r.tolerance,
                 "of curves and meshes, in input units; by default 1/1000 of the region's size")
@@ -201,21 +191,10 @@ void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
   c->add_option("--angle", r.angle, "of meshes: between normals of triangles and surfaces, radians")
       ->type_name("A")
       ->capture_default_str();
-  c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
-  c->add_option("--perturb", r.perturbation, "perturb every coefficient c by up to DELTA (1 + |c|)")
-      ->type_name("DELTA")
-      ->check(CLI::PositiveNumber);
-  c->add_option("--seed", r.seed, "of the perturbation")->type_name("N")->capture_default_str();
+  add_perturbation(*c, r.perturbation, r.seed);
   add_budgets(*c, r.options);
-  c->add_flag("-q", r.quiet, "print no report");
-  c->add_flag("-v", r.verbose, "report what each step did");
-  c->footer(
-      "FILE has lines `name: expression` or `expression` in x, y, z and `region: box x0 x1 y0 y1 "
-      "z0 "
-      "z1`\n"
-      "or `region: halfspaces (a,b,c,d) ...`, each a x + b y + c z + d <= 0; # starts a "
-      "comment.\n\n" +
-      std::string(kExitCodes));
+  add_reports(*c, r);
+  c->footer(std::string(kSurfacesFile) + kExitCodes);
 }
 
 }  // namespace

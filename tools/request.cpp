@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "output.hpp"
 
@@ -34,6 +35,18 @@ Status check_outputs(const Request& r) {
   for (const std::string* path : {&r.json, &r.svg})
     if (const Status status = check_writable(*path)) return status;
   return check_writable_directory(r.vtk_directory);
+}
+
+Status check_mesh_output(const std::string& path) {
+  if (path.empty()) return {};
+#ifdef ENCASE_HAVE_OPEN_MESH
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension != ".om" && extension != ".off" && extension != ".obj" && extension != ".ply")
+    return bad_input("--mesh writes .om, .off, .obj or .ply, not '" + path + "'");
+  return check_writable(path);
+#else
+  return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
+#endif
 }
 
 bool may_show_progress(const Request& r) {

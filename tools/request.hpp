@@ -31,6 +31,10 @@ Status check_request(const Request& request, const std::string& command, const s
 /// What is asked for can be written: VTK is there (else BadInput), and the places exist (else Io).
 Status check_outputs(const Request& request);
 
+/// A mesh can be written at `path`, if it is not empty: OpenMesh is there and knows the extension
+/// (else BadInput), and the place exists (else Io).
+Status check_mesh_output(const std::string& path);
+
 /// Whether progress may be shown: not in the middle of an output.
 bool may_show_progress(const Request& request);
 

@@ -17,6 +17,7 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "surfaces_input.hpp"
 #ifdef ENCASE_HAVE_VTK
 #include "encase/vtk.hpp"
 #endif
@@ -37,32 +38,19 @@ Status check_options(const SliceRequest& r) {
 }
 
 struct Input {
-  std::vector<NamedSurface> surfaces;
-  Polyhedron region;
+  SurfacesInput solid;
   std::vector<std::array<Rational, 4>> planes;
 };
 
 Result<Input> read(const SliceRequest& r) {
-  std::string lines;
-  for (const std::string& expression : r.expressions) lines += expression + "\n";
-  auto file = r.expressions.empty() ? load_surfaces(r.file) : read_surfaces(lines, "-e");
-  if (!file) return file.error();
-  std::optional<Polyhedron> region = std::move(file.value().region);
-  if (!r.region.empty()) {
-    auto parsed = parse_solid_region(r.region, "--region");
-    if (!parsed) return parsed.error();
-    region = std::move(parsed).value();
-  }
-  if (!region)
-    return bad_input(
-        "no region is given: add a line 'region: box x0 x1 y0 y1 z0 z1' to the file, or "
-        "--region \"box x0 x1 y0 y1 z0 z1\"");
+  auto solid = read_surfaces_input(r.file, r.expressions, r.region);
+  if (!solid) return solid.error();
   auto plane = parse_plane(r.plane, "--plane");
   if (!plane) return plane.error();
   const auto& [a, b, c, d] = plane.value();
   if (a == 0 && b == 0 && c == 0) return bad_input("--plane has no normal: a, b and c are zero");
-  Input input{std::move(file.value().surfaces), *std::move(region), {plane.value()}};
-  if (r.count > 0) input.planes = parallel_planes(input.region, {a, b, c}, r.count);
+  Input input{std::move(solid).value(), {plane.value()}};
+  if (r.count > 0) input.planes = parallel_planes(input.solid.region, {a, b, c}, r.count);
   return input;
 }
 
@@ -81,7 +69,7 @@ const Arrangement* pointer(const std::optional<Arrangement>& arrangement) {
 Result<std::vector<Slice>> make_slices(const Input& input, const EncaseOptions& options) {
   std::vector<Slice> slices;
   for (const auto& plane : input.planes) {
-    auto one = slice(input.surfaces, input.region, plane, options);
+    auto one = slice(input.solid.surfaces, input.solid.region, plane, options);
     if (!one) return one.error();
     slices.push_back(std::move(one).value());
   }

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "surfaces.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <random>
 #include <string>
@@ -31,39 +27,20 @@ namespace {
 
 Error bad_input(const std::string& message) { return {Error::Code::BadInput, message}; }
 
-Status check_request(const SurfacesRequest& r) {
-  if (r.file.empty() == r.expressions.empty())
-    return bad_input(
-        "give either a FILE of surfaces or expressions with -e; see encase surfaces --help");
-  if (r.json == "-" && r.summary)
-    return bad_input("only one of --json - and --summary can have standard output");
+Status check_options(const SurfacesRequest& r) {
+  if (const Status status = check_request(r, "surfaces", "surfaces", r.options.max_seconds))
+    return status;
   if (r.history && r.vtk_directory.empty())
     return bad_input("--history belongs to the VTK files: give their directory with -o");
   if (r.options.start_bits > r.options.max_bits)
     return bad_input("--start-bits is above --max-bits");
-  if (!std::isfinite(r.options.max_seconds))
-    return bad_input("--max-seconds must be a finite number");
   if (!(r.perturbation >= 0 && r.perturbation < 1))
     return bad_input("--perturb must be between 0 and 1");
   if (!(r.angle > 0 && r.angle < 1.5)) return bad_input("--angle must be between 0 and 1.5");
   if (!(r.tolerance >= 0 && std::isfinite(r.tolerance)))
     return bad_input("--tolerance must be a finite positive number");
-#ifndef ENCASE_HAVE_VTK
-  if (!r.vtk_directory.empty())
-    return bad_input("-o needs VTK, and this encase was built without VTK");
-#endif
-  if (!r.mesh.empty()) {
-#ifdef ENCASE_HAVE_OPEN_MESH
-    const std::string extension = std::filesystem::path(r.mesh).extension().string();
-    if (extension != ".om" && extension != ".off" && extension != ".obj" && extension != ".ply")
-      return bad_input("--mesh writes .om, .off, .obj or .ply, not '" + r.mesh + "'");
-#else
-    return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
-#endif
-  }
-  for (const std::string* path : {&r.json, &r.mesh})
-    if (const Status status = check_writable(*path)) return status;
-  return check_writable_directory(r.vtk_directory);
+  if (const Status status = check_mesh_output(r.mesh)) return status;
+  return check_outputs(r);
 }
 
 Status perturb_all(const SurfacesRequest& r, std::vector<NamedSurface>* surfaces) {
@@ -126,27 +103,18 @@ Status write_report(const SurfacesRequest& r, const SurfaceEncasement& encasemen
                     const SpaceArrangement* arrangement, const std::string& notes) {
   std::string text = report(encasement) + notes;
   if (r.verbose) text += statistics_report(encasement);
-  if (r.summary) {
-    if (const Status status = print(summary_json(encasement, arrangement))) return status;
-    if (r.verbose) std::fputs(text.c_str(), stderr);
-    return {};
-  }
-  if (r.quiet) return {};
-  if (r.json != "-") return print(text);
-  std::fputs(text.c_str(), stderr);
-  return {};
+  return print_report(r, r.summary ? summary_json(encasement, arrangement) : "", text);
 }
 
 }  // namespace
 
 ExitCode run_surfaces(SurfacesRequest request) {
-  if (const Status status = check_request(request)) return fail(*status);
+  if (const Status status = check_options(request)) return fail(*status);
   auto input = read_surfaces_input(request.file, request.expressions, request.region);
   if (!input) return fail(input.error());
   if (const Status status = perturb_all(request, &input.value().surfaces)) return fail(*status);
 
-  const bool on_terminal = request.json == "-" && isatty(STDOUT_FILENO);
-  std::optional<Progress> progress(std::in_place, !request.quiet && !on_terminal);
+  std::optional<Progress> progress(std::in_place, may_show_progress(request));
   request.options.progress = progress->callback();
   const auto encasement = encase(input.value().surfaces, input.value().region, request.options);
   const auto arrangement = arranged(encasement);

@@ -3,27 +3,19 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "encase/surface_encasement.hpp"
 #include "exit_code.hpp"
+#include "request.hpp"
 
 namespace encase {
 
 /// What `encase surfaces` was asked for.
-struct SurfacesRequest {
-  std::string file;                      ///< "-" is standard input; empty: `expressions`
-  std::vector<std::string> expressions;  ///< of -e
-  std::string region;                    ///< of --region, overrides the file's
-  std::string json;
+struct SurfacesRequest : Request {
   std::string mesh;
-  std::string vtk_directory;
-  bool history = false;
+  bool history = false;  ///< in the VTK files
   double tolerance = 0;  ///< of curves and meshes; 0: 10^-3 of the region's size
   double angle = 0.2;    ///< of meshes: between triangles' and surfaces' normals
-  bool summary = false;
-  bool quiet = false;
-  bool verbose = false;
   double perturbation = 0;
   std::uint64_t seed = 1;
   SurfaceOptions options;
