@@ -123,8 +123,8 @@ std::string report(const SurfaceEncasement& e) {
   text += '\n';
   if (e.region_used.sides != e.region.sides)
     text +=
-        "a side, edge or corner of the region is not in generic position: a slightly larger "
-        "polyhedron is encased\n";
+        "a slightly larger polyhedron is encased: the region's numbers are no doubles, or a side, "
+        "edge or corner is not in generic position\n";
   text += surface_table(e) + curve_table(e, curves) + point_table(e);
   text += unresolved_list(e, e.degenerate, "degenerate");
   text += unresolved_list(e, e.undecided, "undecided");
