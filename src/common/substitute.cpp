@@ -2,6 +2,8 @@
 #include "common/substitute.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace encase {
 
@@ -13,11 +15,29 @@ Polynomial<K> substitute(const Polynomial<D>& f, const std::array<Polynomial<K>,
     for (int k = 1; k <= f.degree(i); ++k) powers[i].push_back(powers[i].back() * replacements[i]);
   }
   std::vector<typename Polynomial<K>::Term> terms;
+  const auto multiply = [](typename Polynomial<K>::Term& term, const auto& factor) {
+    term.coefficient *= factor.coefficient;
+    for (int i = 0; i < K; ++i) term.exponent[i] += factor.exponent[i];
+  };
   for (const auto& term : f.terms()) {
-    Polynomial<K> product = Polynomial<K>::constant(term.coefficient);
-    for (int i = 0; i < D; ++i)
-      if (term.exponent[i] > 0) product = product * powers[i][term.exponent[i]];
-    terms.insert(terms.end(), product.terms().begin(), product.terms().end());
+    // Products with single terms, nearly all there are, are made without polynomials.
+    typename Polynomial<K>::Term single{{}, term.coefficient};
+    std::optional<Polynomial<K>> product;
+    for (int i = 0; i < D; ++i) {
+      const Polynomial<K>& factor = powers[i][term.exponent[i]];
+      if (factor.terms().size() == 1)
+        multiply(single, factor.terms()[0]);
+      else
+        product = product ? *product * factor : factor;
+    }
+    if (!product) {
+      terms.push_back(std::move(single));
+      continue;
+    }
+    for (auto t : product->terms()) {
+      multiply(t, single);
+      terms.push_back(std::move(t));
+    }
   }
   return Polynomial<K>::from_terms(std::move(terms));
 }
