@@ -16,7 +16,7 @@ Polynomial<K> substitute(const Polynomial<D>& f, const std::array<Polynomial<K>,
   }
   std::vector<typename Polynomial<K>::Term> terms;
   const auto multiply = [](typename Polynomial<K>::Term& term, const auto& factor) {
-    term.coefficient *= factor.coefficient;
+    if (factor.coefficient != 1) term.coefficient *= factor.coefficient;
     for (int i = 0; i < K; ++i) term.exponent[i] += factor.exponent[i];
   };
   for (const auto& term : f.terms()) {
