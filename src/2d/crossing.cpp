@@ -10,6 +10,7 @@
 
 #include "common/components.hpp"
 #include "common/expression_program.hpp"
+#include "common/filtered_inclusion.hpp"
 #include "common/interval.hpp"
 #include "common/mpfr_interval.hpp"
 
@@ -140,12 +141,41 @@ class ExpressionOnBoxes {
   ExpressionProgram<2>::Workspace<MpfrInterval> workspace_;
 };
 
+/// An inclusion function on boxes: there is nothing beyond doubles.
+class InclusionOnBoxes {
+ public:
+  explicit InclusionOnBoxes(Inclusion<2> f) : f_(std::move(f)) {}
+
+  void prepare(int precision) { precision_ = precision; }
+  MpfrInterval value(const IntervalBox& at) { return widened(on(at).value); }
+  std::optional<IntervalBox> gradient(const IntervalBox& at) {
+    const EnclosedJet<2> jet = on(at);
+    if (!jet.has_gradient || !jet.has_hessian) return std::nullopt;
+    return IntervalBox{widened(jet.gradient[0]), widened(jet.gradient[1])};
+  }
+
+ private:
+  EnclosedJet<2> on(const IntervalBox& at) const {
+    Box<2> box;
+    for (std::size_t i = 0; i < 2; ++i) {
+      box.lo[i] = mpfr_get_d(at[i].lo(), MPFR_RNDD);
+      box.hi[i] = mpfr_get_d(at[i].hi(), MPFR_RNDU);
+    }
+    return enclosed(f_, box);
+  }
+  MpfrInterval widened(const Interval& a) const { return MpfrInterval(precision_, a.lo, a.hi); }
+
+  Inclusion<2> f_;
+  int precision_ = 53;
+};
+
 /// The function of a curve, with enclosures at one precision.
 class FunctionOnBoxes {
  public:
   explicit FunctionOnBoxes(const Function<2>& f)
-      : on_boxes_(f.is_polynomial() ? OnBoxes(PolynomialOnBoxes(f.polynomial()))
-                                    : ExpressionOnBoxes(f.expression())) {}
+      : on_boxes_(f.is_polynomial()   ? OnBoxes(PolynomialOnBoxes(f.polynomial()))
+                  : f.is_expression() ? OnBoxes(ExpressionOnBoxes(f.expression()))
+                                      : InclusionOnBoxes(f.inclusion())) {}
 
   void prepare(int precision) {
     std::visit([&](auto& f) { f.prepare(precision); }, on_boxes_);
@@ -161,7 +191,7 @@ class FunctionOnBoxes {
   }
 
  private:
-  using OnBoxes = std::variant<PolynomialOnBoxes, ExpressionOnBoxes>;
+  using OnBoxes = std::variant<PolynomialOnBoxes, ExpressionOnBoxes, InclusionOnBoxes>;
   OnBoxes on_boxes_;
 };
 

@@ -205,7 +205,11 @@ bool SpacePartition::State::find_graphs(Item& item) {
   for (std::size_t a = 0; a < item.size(); ++a) {
     if (item.graph[a] >= 0) continue;
     ++tests;
-    field_columns(item.nets[a], &columns);
+    const auto& f = scene.surfaces[static_cast<std::size_t>(item.alive[a])];
+    if (f.is_inclusion())
+      field_columns(f.inclusion(), box, kernel, &columns);
+    else
+      field_columns(item.nets[a], &columns);
     auto certificate = find_graph(columns, box);
     if (!certificate) {
       all = false;

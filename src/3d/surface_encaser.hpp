@@ -40,7 +40,7 @@ class SurfaceEncaser {
   bool stop(const char* stage);
   SubdivisionLimits limits(const char* stage);
   void separate_polynomials();
-  void separate_expressions();
+  void separate_others();
   void add_unresolved(UnresolvedInSpace entry);
   void report_boxes(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
                     const std::string& diagnosis);
