@@ -365,7 +365,24 @@ bool SpacePartition::State::corners_clear(const Item& item, int axis, double at,
   const Box<3>& box = leaves[static_cast<std::size_t>(item.leaf)].box;
   const CutPlace place = cut_place(box.lo[axis], box.hi[axis], at);
   double edge[kMaxDegree + 1];
-  for (const Bernstein<3>& net : item.nets) {
+  for (std::size_t a = 0; a < item.size(); ++a) {
+    const Bernstein<3>& net = item.nets[a];
+    const auto& f = scene.surfaces[static_cast<std::size_t>(item.alive[a])];
+    if (!f.is_polynomial()) {
+      // On a large box such a net lacks too much to tell.
+      for (int corner = 0; corner < 4; ++corner) {
+        Point<3> p;
+        p[static_cast<std::size_t>(axis)] = at;
+        for (int k = 0; k < 2; ++k) {
+          const auto i = static_cast<std::size_t>((axis + 1 + k) % 3);
+          p[i] = (corner >> k) % 2 ? box.hi[i] : box.lo[i];
+        }
+        const auto v = f.evaluate(p, kernel.start_bits);
+        const double least = strictly ? 0x1p-8 * largest_coefficient(net) : 0;
+        if (!(std::fabs(v.value) > std::max(v.error, least))) return false;
+      }
+      continue;
+    }
     const int n = net.degree[0], m = n + 1;
     const int strides[3] = {m * m, m, 1};
     const int stride = strides[axis], u = strides[(axis + 1) % 3], v = strides[(axis + 2) % 3];

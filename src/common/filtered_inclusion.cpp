@@ -373,6 +373,7 @@ template EnclosedJet<2> enclosed(const Inclusion<2>& f, const Box<2>& box);
 template EnclosedJet<3> enclosed(const Inclusion<3>& f, const Box<3>& box);
 template std::optional<std::string> complaint(const Inclusion<2>& f, const Box<2>& box);
 template std::optional<std::string> complaint(const Inclusion<3>& f, const Box<3>& box);
+template class FilteredInclusion<1>;
 template class FilteredInclusion<2>;
 template class FilteredInclusion<3>;
 
