@@ -55,8 +55,8 @@ bool is_quarter(const Box<2>& box, int upper, const Point<2>& center, const Poin
 }
 
 /// Whether the tile serves for the whole rectangle: its terms of higher degree do not matter, and
-/// patches some times smaller than the rectangle keep close to it.
-bool tile_serves(const Tile& tile, double dropped) {
+/// patches some times smaller than the rectangle keep close to it. `tolerated`: beside the others.
+bool tile_serves(const Tile& tile, double dropped, double tolerated) {
   if (tile.undefined) return true;
   static const auto weights = [] {
     std::array<double, 8> w;
@@ -68,7 +68,7 @@ bool tile_serves(const Tile& tile, double dropped) {
     for (int j = 0; i + j <= 2; ++j) size += std::fabs(tile.a[i][j]);
   double loss = 0;
   for (int k = 0; k < 8; ++k) loss += weights[k] * tile.high_terms[k];
-  return dropped <= 0x1p-14 * size && loss <= 0x1p-5 * size;
+  return dropped <= tolerated * size && loss <= 0x1p-5 * size;
 }
 
 /// The error that values of a function that is no polynomial may have: a small part of the greatest
@@ -264,7 +264,9 @@ void TiledFunction::develop(Node& node) {
 
 /// Whether the tile just made serves for the node: then it is kept.
 bool TiledFunction::serves(Node& node, Tile& tile, double dropped) {
-  if (node.depth < kMaxDepth && !tile_serves(tile, dropped)) return false;
+  // What an inclusion function's lacks does not shrink fast.
+  const double tolerated = f_->is_inclusion() ? 0x1p-4 : 0x1p-14;
+  if (node.depth < kMaxDepth && !tile_serves(tile, dropped, tolerated)) return false;
   workspace_->keep();
   node.tile.store(&tile, std::memory_order_release);
   return true;
