@@ -424,8 +424,12 @@ void Encaser::report_gaps() {
       entry.box = box;
       entry.has_box = true;
       entry.curves = {static_cast<int>(c)};
-      entry.reason = "the function of curve '" + result_.curves[c].name +
-                     "' is not defined, has a pole or is not differentiable here, or nearly";
+      entry.reason = result_.curves[c].function.is_inclusion()
+                         ? "the inclusion function of curve '" + result_.curves[c].name +
+                               "' tells nothing here"
+                         : "the function of curve '" + result_.curves[c].name +
+                               "' is not defined, has a pole or is not differentiable here, or "
+                               "nearly";
       result_.degenerate.push_back(std::move(entry));
     }
   }

@@ -44,7 +44,7 @@ TEST(InclusionCurves, CrossOneAnotherAndPolynomials) {
   const Encasement e = encased({{"circle", circle()}, {"bump", bump()}, {"line", line}});
   const Encasement other =
       encased({{"circle", written::polynomial<2>("x^2+y^2-1")}, {"bump", bump()}, {"line", line}});
-  EXPECT_EQ(e.crossings.size(), 6u);
+  EXPECT_EQ(e.crossings.size(), 5u);
   EXPECT_EQ(e.crossings.size(), other.crossings.size());
   EXPECT_EQ(arrange(e).value().faces.size(), arrange(other).value().faces.size());
   EXPECT_TRUE(trace(e, arrange(e).value(), {}));

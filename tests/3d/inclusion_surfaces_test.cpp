@@ -125,7 +125,7 @@ TEST(InclusionSurfaces, CommonPointsAreFound) {
     const auto result =
         common_points({NamedSurface{"a", std::move(f)},
                        NamedSurface{"b", written::polynomial<3>("x^2+2*y^2+3*z^2-3/2")},
-                       NamedSurface{"c", written::polynomial<3>("3*x^2+y^2/2+z^2/3-1")}},
+                       NamedSurface{"c", written::polynomial<3>("3*x^2+y^2/2+z^2/3-2")}},
                       kCube);
     EXPECT_TRUE(result);
     EXPECT_EQ(result.value().outcome, Outcome::Certified);
