@@ -66,7 +66,7 @@ std::string complaint(const std::string& name, const Expression& f) {
 template <int D>
 std::string complaint(const NamedFunction<D>& named) {
   const std::string name = kNoun<D> + " " + in_quotes(named.name);
-  if (!named.function.is_polynomial()) return complaint<D>(name, named.function.expression());
+  if (named.function.is_expression()) return complaint<D>(name, named.function.expression());
   const Polynomial<D>& f = named.function.polynomial();
   if (f.is_zero()) return name + " is the zero polynomial, which vanishes everywhere";
   if (f.is_constant()) return name + " is a constant and not zero, so no point lies on it";

@@ -11,7 +11,7 @@
 #include "io/json_node.hpp"
 #include "io/json_writer.hpp"
 
-/// Functions in results: the key `terms` or `expression` (docs/json.md).
+/// Functions in results: the key `terms`, `expression` or `inclusion` (docs/json.md).
 namespace encase {
 
 template <int D>
@@ -24,11 +24,13 @@ void put_terms(JsonWriter& w, const Polynomial<D>& polynomial) {
   });
 }
 
-/// The terms of a polynomial, or an expression as a text.
+/// The terms of a polynomial, an expression as a text, or that there is an inclusion function.
 template <int D>
 void put_function(JsonWriter& w, const Function<D>& function) {
   if (function.is_polynomial()) {
     w.key("terms"), put_terms(w, function.polynomial());
+  } else if (function.is_inclusion()) {
+    w.field("inclusion", true);
   } else {
     w.field("expression", function.to_string());
   }
@@ -65,6 +67,10 @@ Polynomial<D> read_terms(const JsonNode& node) {
 /// What a curve or surface is the zero set of.
 template <int D>
 Function<D> read_function(const JsonNode& named) {
+  if (named.has("inclusion"))
+    named.fail(
+        "is given by an inclusion function, which a file cannot hold: this result can be "
+        "verified only by the program that has the function");
   if (!named.has("expression")) return read_terms<D>(named.member("terms"));
   const JsonNode node = named.member("expression");
   auto expression = parse_expression<D>(node.text());

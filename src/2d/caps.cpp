@@ -29,7 +29,7 @@ bool is_rectangle(const Region& region) {
 
 bool is_constant(const Function<2>& f) {
   if (f.is_polynomial()) return f.polynomial().is_constant();
-  return !f.expression().uses(0) && !f.expression().uses(1);
+  return f.is_expression() && !f.expression().uses(0) && !f.expression().uses(1);
 }
 
 Status check_input(const std::vector<NamedCurve>& curves, const Region& region,

@@ -10,6 +10,7 @@
 
 #include "common/components.hpp"
 #include "common/expression_program.hpp"
+#include "common/filtered_inclusion.hpp"
 #include "common/interval.hpp"
 #include "common/mpfr_interval.hpp"
 
@@ -24,6 +25,8 @@ constexpr long kMaxBitsOfExpressions = 1 << 20;
 /// How many bits of two coordinates have to agree before it is left open whether they are equal,
 /// where no resultant tells.
 constexpr long kMaxBitsCompared = 1 << 12;
+/// Inclusion functions are called with doubles.
+constexpr long kMaxBitsOfInclusions = 60;
 /// How many bits of precision, more than the result needs, are tried before giving up.
 constexpr long kMaxGuard = 1 << 18;
 /// How many boxes a subdivision may hold that narrows a crossing's box for the interval Newton
@@ -140,12 +143,41 @@ class ExpressionOnBoxes {
   ExpressionProgram<2>::Workspace<MpfrInterval> workspace_;
 };
 
+/// An inclusion function on boxes: there is nothing beyond doubles.
+class InclusionOnBoxes {
+ public:
+  explicit InclusionOnBoxes(Inclusion<2> f) : f_(std::move(f)) {}
+
+  void prepare(int precision) { precision_ = precision; }
+  MpfrInterval value(const IntervalBox& at) { return widened(on(at).value); }
+  std::optional<IntervalBox> gradient(const IntervalBox& at) {
+    const EnclosedJet<2> jet = on(at);
+    if (!jet.has_gradient || !jet.has_hessian) return std::nullopt;
+    return IntervalBox{widened(jet.gradient[0]), widened(jet.gradient[1])};
+  }
+
+ private:
+  EnclosedJet<2> on(const IntervalBox& at) const {
+    Box<2> box;
+    for (std::size_t i = 0; i < 2; ++i) {
+      box.lo[i] = mpfr_get_d(at[i].lo(), MPFR_RNDD);
+      box.hi[i] = mpfr_get_d(at[i].hi(), MPFR_RNDU);
+    }
+    return enclosed(f_, box);
+  }
+  MpfrInterval widened(const Interval& a) const { return MpfrInterval(precision_, a.lo, a.hi); }
+
+  Inclusion<2> f_;
+  int precision_ = 53;
+};
+
 /// The function of a curve, with enclosures at one precision.
 class FunctionOnBoxes {
  public:
   explicit FunctionOnBoxes(const Function<2>& f)
-      : on_boxes_(f.is_polynomial() ? OnBoxes(PolynomialOnBoxes(f.polynomial()))
-                                    : ExpressionOnBoxes(f.expression())) {}
+      : on_boxes_(f.is_polynomial()   ? OnBoxes(PolynomialOnBoxes(f.polynomial()))
+                  : f.is_expression() ? OnBoxes(ExpressionOnBoxes(f.expression()))
+                                      : InclusionOnBoxes(f.inclusion())) {}
 
   void prepare(int precision) {
     std::visit([&](auto& f) { f.prepare(precision); }, on_boxes_);
@@ -161,7 +193,7 @@ class FunctionOnBoxes {
   }
 
  private:
-  using OnBoxes = std::variant<PolynomialOnBoxes, ExpressionOnBoxes>;
+  using OnBoxes = std::variant<PolynomialOnBoxes, ExpressionOnBoxes, InclusionOnBoxes>;
   OnBoxes on_boxes_;
 };
 
@@ -310,11 +342,17 @@ bool are_polynomials(const Encasement& encasement, int id) {
   return curve_of(encasement, id, 0).is_polynomial() && curve_of(encasement, id, 1).is_polynomial();
 }
 
+bool has_inclusion(const Encasement& encasement, int id) {
+  return curve_of(encasement, id, 0).is_inclusion() || curve_of(encasement, id, 1).is_inclusion();
+}
+
 /// Refines a box that holds exactly one common point of two curves.
 class Refiner {
  public:
   Refiner(const Encasement& encasement, int id)
-      : id_(id), point_(curve_of(encasement, id, 0), curve_of(encasement, id, 1)) {
+      : id_(id),
+        max_guard_(has_inclusion(encasement, id) ? 2 * guard_ : kMaxGuard),
+        point_(curve_of(encasement, id, 0), curve_of(encasement, id, 1)) {
     const Box<2>& box = encasement.crossings[static_cast<std::size_t>(id)].box;
     for (int i = 0; i < 2; ++i) {
       box_.lo[i] = box.lo[i];
@@ -337,7 +375,7 @@ class Refiner {
                      "the box of crossing " + std::to_string(id_) + " holds no common point"};
       if (step == CommonPoint::Step::Wide) ++failures_;
       if (step != CommonPoint::Step::Shrunk) guard_ *= 2;
-      if (guard_ > kMaxGuard + 2 * bits || failures_ == kMaxFailures)
+      if (guard_ > max_guard_ + 2 * bits || failures_ == kMaxFailures)
         return Error{Error::Code::Undecided, "crossing " + std::to_string(id_) +
                                                  " cannot be refined to " + std::to_string(bits) +
                                                  " bits: its curves may touch there"};
@@ -347,7 +385,7 @@ class Refiner {
 
  private:
   int id_;
-  long guard_ = 64;
+  long guard_ = 64, max_guard_;
   int failures_ = 0;
   CommonPoint point_;
   RationalBox box_;
@@ -358,7 +396,9 @@ class Refiner {
 Result<RationalBox> refine(const Encasement& encasement, int id, int bits) {
   if (const auto error = complaint(encasement, id)) return *error;
   const bool polynomials = are_polynomials(encasement, id);
-  const long most = polynomials ? kMaxBits : kMaxBitsOfExpressions;
+  const long most = polynomials                     ? kMaxBits
+                    : has_inclusion(encasement, id) ? kMaxBitsOfInclusions
+                                                    : kMaxBitsOfExpressions;
   if (bits > most)
     return Error{Error::Code::Undecided,
                  std::string("crossings of curves that are ") + (polynomials ? "" : "no ") +

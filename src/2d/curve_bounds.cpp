@@ -18,19 +18,33 @@ double magnitude(const Interval& a) { return std::max(std::fabs(a.lo), std::fabs
 }  // namespace
 
 CurveBounds::CurveBounds(const Function<2>& function)
-    : program_(function.is_polynomial() ? Expression(function.polynomial())
-                                        : function.expression()) {}
+    : program_(function.is_polynomial()   ? Expression(function.polynomial())
+               : function.is_expression() ? function.expression()
+                                          : Expression()) {
+  if (function.is_inclusion()) inclusion_ = function.inclusion();
+}
+
+CurveBounds::Values CurveBounds::values(const Box<2>& box) {
+  ++evaluations_;
+  if (inclusion_) {
+    const EnclosedJet<2> jet = enclosed(*inclusion_, box);
+    return {jet.value, jet.has_value && jet.has_gradient, false};
+  }
+  const auto natural = program_.value(intervals(box), workspace_);
+  return {natural.range(), natural.continuous(), natural.nowhere()};
+}
 
 CurveBounds::Slopes CurveBounds::slopes(const Box<2>& box) {
   ++evaluations_;
+  if (inclusion_) {
+    const EnclosedJet<2> jet = enclosed(*inclusion_, box);
+    return {jet.gradient, jet.has_gradient && jet.has_hessian};
+  }
   const auto on_box = program_.value_and_gradient(intervals(box), workspace_);
   return {{on_box.jet.first(0), on_box.jet.first(1)}, on_box.smooth()};
 }
 
-Interval CurveBounds::value_at(const Point<2>& point) {
-  ++evaluations_;
-  return program_.value(intervals(Box<2>{point, point}), workspace_).range();
-}
+Interval CurveBounds::value_at(const Point<2>& point) { return values(Box<2>{point, point}).range; }
 
 std::optional<Sign> CurveBounds::sign_at(const Point<2>& point) {
   const std::optional<Sign> sign = value_at(point).sign();
@@ -40,16 +54,15 @@ std::optional<Sign> CurveBounds::sign_at(const Point<2>& point) {
 /// The natural extension, and where that is not enough the mean value form; along an axis along
 /// which f is monotone the ends in place of that (then nothing is lost).
 CurveBounds::Look CurveBounds::look(const Box<2>& box) {
-  ++evaluations_;
-  const auto natural = program_.value(intervals(box), workspace_);
+  const Values natural = values(box);
   Look result;
-  result.continuous = natural.continuous();
-  if (natural.nowhere()) {
+  result.continuous = natural.continuous;
+  if (natural.nowhere) {
     result.absent = true;
     return result;
   }
-  if (natural.range().lo > 0) result.sign = Sign::Positive;
-  if (natural.range().hi < 0) result.sign = Sign::Negative;
+  if (natural.range.lo > 0) result.sign = Sign::Positive;
+  if (natural.range.hi < 0) result.sign = Sign::Negative;
   result.absent = result.sign.has_value();
   if (result.absent) return result;
   result.slopes = slopes(box);

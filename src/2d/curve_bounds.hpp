@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/expression_program.hpp"
+#include "common/filtered_inclusion.hpp"
 #include "common/interval.hpp"
 #include "encase/function.hpp"
 #include "encase/geometry.hpp"
@@ -46,6 +47,13 @@ class CurveBounds {
   std::int64_t evaluations() const { return evaluations_; }
 
  private:
+  struct Values {
+    Interval range;
+    bool continuous, nowhere;
+  };
+  Values values(const Box<2>& box);
+
+  std::optional<Inclusion<2>> inclusion_;  ///< what f is, else:
   ExpressionProgram<2> program_;
   ExpressionProgram<2>::Workspace<Interval> workspace_;
   std::int64_t evaluations_ = 0;

@@ -152,12 +152,18 @@ Status check_polynomial(const NamedCurve& curve) {
 
 }  // namespace
 
-Status Encaser::check_expression(const NamedCurve& curve) const {
-  const Expression& expression = curve.function.expression();
-  if (!expression.uses(0) && !expression.uses(1))
-    return bad_input("curve '" + curve.name + "' is a constant: it has no x and no y");
-  if (expression.uses(2))
-    return bad_input("curve '" + curve.name + "' has a z: a curve in the plane has x and y only");
+Status Encaser::check_other(const NamedCurve& curve) const {
+  if (curve.function.is_inclusion()) {
+    const Box<2> box = result_.region.bounding_box();
+    if (const auto trouble = complaint(curve.function.inclusion(), box))
+      return bad_input("the inclusion function of curve '" + curve.name + "' " + *trouble);
+  } else {
+    const Expression& expression = curve.function.expression();
+    if (!expression.uses(0) && !expression.uses(1))
+      return bad_input("curve '" + curve.name + "' is a constant: it has no x and no y");
+    if (expression.uses(2))
+      return bad_input("curve '" + curve.name + "' has a z: a curve in the plane has x and y only");
+  }
   if (result_.region.plane)
     return bad_input("curve '" + curve.name +
                      "' is no polynomial: it can be encased in a bounded region, not in the plane");
@@ -171,7 +177,7 @@ Status Encaser::check_input() const {
     return bad_input("the region has fewer than three corners");
   for (const NamedCurve& curve : result_.input)
     if (const Status status =
-            curve.function.is_polynomial() ? check_polynomial(curve) : check_expression(curve))
+            curve.function.is_polynomial() ? check_polynomial(curve) : check_other(curve))
       return status;
   if (!(result_.perturbation >= 0) || !std::isfinite(result_.perturbation))
     return bad_input("the perturbation must be a number that is not negative");
@@ -189,7 +195,7 @@ void Encaser::separate_components() {
     }
   }
   separate_polynomials();
-  separate_expressions();
+  separate_others();
   for (const Curve& curve : result_.curves) polynomials_.emplace_back(curve.function);
 }
 
@@ -243,8 +249,8 @@ void Encaser::separate_polynomials() {
   }
 }
 
-/// Equal expressions are one curve; nothing else is known of what they have in common.
-void Encaser::separate_expressions() {
+/// Equal ones are one curve; nothing else is known of what they have in common.
+void Encaser::separate_others() {
   const std::size_t first = result_.curves.size();
   for (std::size_t k = 0; k < result_.input.size(); ++k) {
     const NamedCurve& from = result_.input[k];
@@ -418,8 +424,12 @@ void Encaser::report_gaps() {
       entry.box = box;
       entry.has_box = true;
       entry.curves = {static_cast<int>(c)};
-      entry.reason = "the function of curve '" + result_.curves[c].name +
-                     "' is not defined, has a pole or is not differentiable here, or nearly";
+      entry.reason = result_.curves[c].function.is_inclusion()
+                         ? "the inclusion function of curve '" + result_.curves[c].name +
+                               "' tells nothing here"
+                         : "the function of curve '" + result_.curves[c].name +
+                               "' is not defined, has a pole or is not differentiable here, or "
+                               "nearly";
       result_.degenerate.push_back(std::move(entry));
     }
   }

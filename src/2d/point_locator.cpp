@@ -30,6 +30,7 @@ std::optional<Sign> sign_at(const FilteredFunction<2>& f, const RationalPoint<2>
                             Kernel& kernel) {
   const Sign sign = f.sign_at(point, kernel);
   if (f.is_polynomial() || sign != Sign::Zero) return sign;
+  if (!f.is_expression()) return std::nullopt;
   // It may be zero provably.
   const ExpressionProgram<2> program(f.expression().exact());
   if (program.sign_at(point, kernel) == PointSign::Zero) return Sign::Zero;

@@ -76,6 +76,7 @@ bool is_curve(const Expression& f) {
 }  // namespace
 
 bool is_curve(const Function<2>& function) {
+  if (function.is_inclusion()) return true;
   return function.is_polynomial() ? is_curve(function.polynomial())
                                   : is_curve(function.expression());
 }
@@ -87,7 +88,7 @@ void check_function(Claims& claims, const char* name, std::size_t i, const Funct
     claims.require(is_curve(function.polynomial()), name, " ", i,
                    " is not a polynomial of degree 1 to ", kMaxDegree, ".");
   } else {
-    claims.require(is_curve(function.expression()), name, " ", i,
+    claims.require(function.is_inclusion() || is_curve(function.expression()), name, " ", i,
                    " is not an expression in x and y.");
     claims.require(!claims.result.region.plane, name, " ", i,
                    " is no polynomial: nothing is proved of it in the whole plane.");

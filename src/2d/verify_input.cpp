@@ -88,9 +88,9 @@ void check_factors(Claims& claims, std::set<int>* repeated) {
   }
 }
 
-/// Expressions are taken as they are, equal ones once. (That they have no component in common, and
-/// none twice, is not known beforehand: where they had one, no cover could be proved.)
-void check_expressions(Claims& claims) {
+/// What is no polynomial is taken as it is, equal ones once. (That they have no component in
+/// common, and none twice, is not known beforehand: where they had one, no cover could be proved.)
+void check_others(Claims& claims) {
   const Encasement& e = claims.result;
   std::vector<int> count(e.input.size(), 0);
   for (const int c : of_kind(e.curves, false)) {
@@ -99,10 +99,10 @@ void check_expressions(Claims& claims) {
       if (input_function(e, i) == curve_at(e, c).function) equal.push_back(i);
     for (const int i : equal) ++count[static_cast<std::size_t>(i)];
     claims.require(equal == curve_at(e, c).sources, "Curve ", c,
-                   " is not the expression of its sources, or not of them alone.");
+                   " is not the function of its sources, or not of them alone.");
   }
   for (const int i : of_kind(e.input, false))
-    claims.require(count[static_cast<std::size_t>(i)] == 1, "The expression of input curve ", i,
+    claims.require(count[static_cast<std::size_t>(i)] == 1, "The function of input curve ", i,
                    " is not that of one curve.");
 }
 
@@ -250,7 +250,7 @@ void check_infinity(Claims& claims) {
 void check_curves(Claims& claims) {
   std::set<int> repeated;
   check_factors(claims, &repeated);
-  check_expressions(claims);
+  check_others(claims);
   check_components(claims, repeated);
 }
 

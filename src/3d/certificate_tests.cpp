@@ -29,6 +29,17 @@ BoxChart chart_of(const Box<3>& box) {
           centered(box.lo[2], box.hi[2])};
 }
 
+namespace {
+
+const FilteredInclusion<3>::Local& local_of(const FilteredInclusion<3>& f, const Box<3>& box,
+                                            Kernel& kernel) {
+  const BoxChart chart = chart_of(box);
+  return f.local({chart[0].center, chart[1].center, chart[2].center},
+                 {chart[0].half, chart[1].half, chart[2].half}, kernel);
+}
+
+}  // namespace
+
 template <int M>
 double lower_bound(const NetColumns<M>& nets, const std::array<double, M>& weights,
                    const std::array<double, M>& deviation) {
@@ -88,6 +99,23 @@ void field_columns(const Bernstein<3>& net, NetColumns<5>* columns) {
   columns->radius[4] = net.radius;
 }
 
+void field_columns(const FilteredInclusion<3>& f, const Box<3>& box, Kernel& kernel,
+                   NetColumns<5>* columns) {
+  thread_local Bernstein<3> net;
+  f.expand(box, f.degree(), Kernel::kDoubleBits, kernel, &net);
+  field_columns(net, columns);
+  const auto& local = local_of(f, box, kernel);
+  // What the net lacks but for the rest is its rounding errors, which field_columns amplifies.
+  const double rounding = (net.radius - local.model.error) * kUp + kUnit * net.radius;
+  const double n = 1.01 * f.degree(), size = columns->largest[4];
+  double sum = 16 * n * kUnit * size;
+  for (int i = 0; i < 3; ++i) {
+    columns->radius[i] = (local.slope_error[i] + n * (rounding + 3 * kUnit * size) + kTiny) * kUp;
+    sum += columns->radius[i];
+  }
+  columns->radius[3] = sum * kUp;
+}
+
 namespace {
 
 /// Weights of the columns, and how far they may be from what they stand for.
@@ -125,13 +153,13 @@ struct LocalTaylor {
   int n = 0;
   std::vector<double> c;
   double error = 0;        ///< bounds what the polynomial lacks
-  double slope_error = 0;  ///< bounds what its partial derivatives lack
+  Point<3> slope_error{};  ///< bounds what its partial derivatives lack
 };
 
 constexpr int kExpressionDegree = 6;
 
 int taylor_degree(const FilteredFunction<3>& f) {
-  return f.is_polynomial() ? f.degree() : kExpressionDegree;
+  return f.is_expression() ? kExpressionDegree : f.degree();
 }
 
 bool expand(const FilteredFunction<3>& f, const Box<3>& box, int bits, Kernel& kernel,
@@ -141,13 +169,16 @@ bool expand(const FilteredFunction<3>& f, const Box<3>& box, int bits, Kernel& k
     auto expansion = f.polynomial().taylor(box, bits, kernel);
     taylor->c = std::move(expansion.coefficients);
     taylor->error = expansion.error;
-    taylor->slope_error = taylor->n * expansion.error;
+    taylor->slope_error.fill(taylor->n * expansion.error);
     return std::isfinite(taylor->error);
   }
   const BoxChart chart = chart_of(box);
+  const auto* local = f.is_inclusion() ? &local_of(f.inclusion(), box, kernel) : nullptr;
   const TaylorModel<3, double>& model =
-      f.expression().model({chart[0].center, chart[1].center, chart[2].center},
-                           {chart[0].half, chart[1].half, chart[2].half}, taylor->n, bits, kernel);
+      local ? local->model
+            : f.expression().model({chart[0].center, chart[1].center, chart[2].center},
+                                   {chart[0].half, chart[1].half, chart[2].half}, taylor->n, bits,
+                                   kernel);
   if (!model.exists()) return false;
   const int m = taylor->n + 1;
   taylor->c.assign(static_cast<std::size_t>(m * m * m), 0.0);
@@ -157,7 +188,10 @@ bool expand(const FilteredFunction<3>& f, const Box<3>& box, int bits, Kernel& k
         taylor->c[static_cast<std::size_t>((i * m + j) * m + k)] =
             model.c[static_cast<std::size_t>((i * model.stride + j) * model.stride + k)];
   taylor->error = model.error;
-  taylor->slope_error = TaylorModel<3, double>::kSlope * model.error;
+  if (local)
+    taylor->slope_error = local->slope_error;
+  else
+    taylor->slope_error.fill(TaylorModel<3, double>::kSlope * model.error);
   return true;
 }
 
@@ -175,7 +209,7 @@ void differentiate(const LocalTaylor& f, int axis, LocalTaylor* out) {
     out->c[static_cast<std::size_t>(k - stride)] = c;
     sum += std::fabs(c);
   }
-  out->error = (f.slope_error + kUnit * sum) * kUp + kTiny;
+  out->error = (f.slope_error[axis] + kUnit * sum) * kUp + kTiny;
 }
 
 double norm(const LocalTaylor& f) {
@@ -310,7 +344,10 @@ bool holds(const GraphCertificate& certificate, const FilteredFunction<3>& f, Ke
   return climb(kernel, [&](int bits, double* radius) {
     f.expand(certificate.box, f.degree(), bits, kernel, &net);
     *radius = net.radius;
-    field_columns(net, &columns);
+    if (f.is_inclusion())
+      field_columns(f.inclusion(), certificate.box, kernel, &columns);
+    else
+      field_columns(net, &columns);
     return is_graph(columns, chart, certificate);
   });
 }

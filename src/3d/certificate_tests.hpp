@@ -43,6 +43,11 @@ double lower_bound(const NetColumns<M>& nets, const std::array<double, M>& weigh
 /// From the net of f, of equal degrees: df/ds_x, df/ds_y, df/ds_z, s . grad f, f.
 void field_columns(const Bernstein<3>& net, NetColumns<5>* columns);
 
+/// The same of an inclusion function on a box, with the errors of the derivatives themselves, which
+/// are less than those of the net's.
+void field_columns(const FilteredInclusion<3>& f, const Box<3>& box, Kernel& kernel,
+                   NetColumns<5>* columns);
+
 /// V . grad f + multiplier f > 0 on the chart, as the certificate says; its box counts for nothing.
 bool is_graph(const NetColumns<5>& columns, const BoxChart& chart,
               const GraphCertificate& certificate);

@@ -8,16 +8,22 @@
 #include <utility>
 
 #include "3d/solid_sides.hpp"
+#include "common/filtered_inclusion.hpp"
 #include "common/isolate_roots.hpp"
 #include "common/run_clock.hpp"
 
 namespace encase {
 namespace {
 
-std::optional<Error> complaint(const NamedSurface& surface) {
+std::optional<Error> complaint(const NamedSurface& surface, const Box<3>& box) {
   const auto bad = [&](const std::string& what) {
     return Error{Error::Code::BadInput, "surface '" + surface.name + "' " + what};
   };
+  if (surface.function.is_inclusion()) {
+    const auto trouble = complaint(surface.function.inclusion(), box);
+    if (trouble) return bad("has an inclusion function that " + *trouble);
+    return std::nullopt;
+  }
   if (!surface.function.is_polynomial()) {
     const Expression& f = surface.function.expression();
     if (!f.uses(0) && !f.uses(1) && !f.uses(2)) return bad("has none of x, y and z");
@@ -124,7 +130,7 @@ Result<CommonPoints> common_points(const std::array<NamedSurface, 3>& surfaces,
                  "the processor must round to nearest while common points are sought; call "
                  "std::fesetround(FE_TONEAREST)"};
   for (const NamedSurface& surface : surfaces)
-    if (auto error = complaint(surface)) return *error;
+    if (auto error = complaint(surface, region.bounding_box())) return *error;
   RunClock clock;
   CommonPoints result;
   result.surfaces = surfaces;

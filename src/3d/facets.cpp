@@ -17,8 +17,9 @@ const FacetEncaser::OnPlane& FacetEncaser::restricted(int plane, int surface) {
   result.function =
       charts_.of(plane).restrict(surfaces_[static_cast<std::size_t>(surface)].function);
   const Function<2>& f = result.function;
-  const bool is_constant = f.is_polynomial() ? f.polynomial().is_constant()
-                                             : !f.expression().uses(0) && !f.expression().uses(1);
+  const bool is_constant =
+      f.is_polynomial() ? f.polynomial().is_constant()
+                        : f.is_expression() && !f.expression().uses(0) && !f.expression().uses(1);
   if (is_constant && f.is_polynomial() && f.polynomial().is_zero())
     result.constant = Sign::Zero;
   else if (is_constant)
@@ -63,7 +64,9 @@ std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet) {
   std::vector<const FilteredFunction<2>*> prepared;
   for (const int s : facet->surfaces) {
     const OnPlane& on_plane = restricted(facet->plane, s);
-    curves.push_back({surfaces_[static_cast<std::size_t>(s)].name, on_plane.function});
+    curves.emplace_back();
+    curves.back().name = surfaces_[static_cast<std::size_t>(s)].name;
+    curves.back().function = on_plane.function;
     prepared.push_back(&*on_plane.filtered);
   }
   ++encased_;

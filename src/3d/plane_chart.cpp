@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/filtered_inclusion.hpp"
 #include "common/substitute.hpp"
 #include "encase/slice.hpp"
 
@@ -94,6 +95,12 @@ Function<2> PlaneChart::restrict(const Function<3>& function) const {
       at[solved_] = at[solved_] + Polynomial<2>::constant(height_[i]) * at[axes_[i]];
     }
     return encase::substitute<2, 3>(function.polynomial(), at);
+  }
+  if (function.is_inclusion()) {
+    PlaneMap map;
+    for (std::size_t i = 0; i < 2; ++i) map[static_cast<std::size_t>(axes_[i])][i] = 1;
+    for (std::size_t i = 0; i < 3; ++i) map[static_cast<std::size_t>(solved_)][i] = height_[i];
+    return restricted(function.inclusion(), map);
   }
   std::array<Expression, 3> at;
   Expression height(height_[2]);

@@ -145,8 +145,9 @@ struct RegionLocator::Tables {
       signs.push_back(surfaces[s].sign_at(point, kernel));
       if (signs.back() != Sign::Zero) continue;
       if (surfaces[s].is_polynomial() ||
-          ExpressionProgram<3>(surfaces[s].expression().exact()).sign_at(point, kernel) ==
-              PointSign::Zero)
+          (surfaces[s].is_expression() &&
+           ExpressionProgram<3>(surfaces[s].expression().exact()).sign_at(point, kernel) ==
+               PointSign::Zero))
         place.surfaces.push_back(static_cast<int>(s));
       else
         proved = false;

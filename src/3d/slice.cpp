@@ -18,6 +18,7 @@ std::optional<PointSign> constant_sign(const Function<2>& function, Kernel& kern
     if (!function.polynomial().is_constant()) return std::nullopt;
     return function.polynomial().is_zero() ? PointSign::Zero : PointSign::Positive;
   }
+  if (function.is_inclusion()) return std::nullopt;
   const Expression& f = function.expression();
   if (f.uses(0) || f.uses(1)) return std::nullopt;
   return ExpressionProgram<2>(f).sign_at({0, 0}, kernel);

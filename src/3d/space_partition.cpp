@@ -205,7 +205,11 @@ bool SpacePartition::State::find_graphs(Item& item) {
   for (std::size_t a = 0; a < item.size(); ++a) {
     if (item.graph[a] >= 0) continue;
     ++tests;
-    field_columns(item.nets[a], &columns);
+    const auto& f = scene.surfaces[static_cast<std::size_t>(item.alive[a])];
+    if (f.is_inclusion())
+      field_columns(f.inclusion(), box, kernel, &columns);
+    else
+      field_columns(item.nets[a], &columns);
     auto certificate = find_graph(columns, box);
     if (!certificate) {
       all = false;
@@ -361,12 +365,27 @@ bool SpacePartition::State::corners_clear(const Item& item, int axis, double at,
   const Box<3>& box = leaves[static_cast<std::size_t>(item.leaf)].box;
   const CutPlace place = cut_place(box.lo[axis], box.hi[axis], at);
   double edge[kMaxDegree + 1];
-  const int p = (axis + 1) % 3, q = (axis + 2) % 3;
   for (std::size_t a = 0; a < item.size(); ++a) {
     const Bernstein<3>& net = item.nets[a];
+    const auto& f = scene.surfaces[static_cast<std::size_t>(item.alive[a])];
+    if (!f.is_polynomial()) {
+      // On a large box such a net lacks too much to tell.
+      for (int corner = 0; corner < 4; ++corner) {
+        Point<3> p;
+        p[static_cast<std::size_t>(axis)] = at;
+        for (int k = 0; k < 2; ++k) {
+          const auto i = static_cast<std::size_t>((axis + 1 + k) % 3);
+          p[i] = (corner >> k) % 2 ? box.hi[i] : box.lo[i];
+        }
+        const auto v = f.evaluate(p, kernel.start_bits);
+        const double least = strictly ? 0x1p-8 * largest_coefficient(net) : 0;
+        if (!(std::fabs(v.value) > std::max(v.error, least))) return false;
+      }
+      continue;
+    }
     const int n = net.degree[0], m = n + 1;
     const int strides[3] = {m * m, m, 1};
-    const int stride = strides[axis], u = strides[p], v = strides[q];
+    const int stride = strides[axis], u = strides[(axis + 1) % 3], v = strides[(axis + 2) % 3];
     for (const int corner : {0, n * u, n * v, n * (u + v)}) {
       double size = 0;
       for (int k = 0; k <= n; ++k) {
@@ -376,18 +395,7 @@ bool SpacePartition::State::corners_clear(const Item& item, int axis, double at,
       for (int r = 1; r <= n; ++r)
         for (int k = 0; k <= n - r; ++k) edge[k] = (1 - place.t) * edge[k] + place.t * edge[k + 1];
       const double error = net.radius + n * (2.1 * place.deviation + 0x1p-51) * size + 0x1p-1000;
-      if (!(std::fabs(edge[0]) > 1.01 * error)) {
-        // What the net of a function lacks that is no polynomial, its value does not.
-        const FilteredFunction<3>& f = scene.surfaces[static_cast<std::size_t>(item.alive[a])];
-        if (f.precision_helps(net)) return false;
-        Point<3> at_corner = box.lo;
-        at_corner[axis] = at;
-        if (corner / u % m == n) at_corner[p] = box.hi[p];
-        if (corner / v % m == n) at_corner[q] = box.hi[q];
-        const auto value = f.evaluate(at_corner, item.bits[a]);
-        if (!(std::fabs(value.value) > value.error)) return false;
-        continue;
-      }
+      if (!(std::fabs(edge[0]) > 1.01 * error)) return false;
       if (strictly && std::fabs(edge[0]) < 0x1p-8 * largest_coefficient(net)) return false;
     }
   }

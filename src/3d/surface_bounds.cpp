@@ -53,6 +53,30 @@ struct SurfaceBounds::Net {
   }
 };
 
+namespace {
+
+Interval common_part(const Interval& a, const Interval& b) {
+  return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+}
+
+/// The ranges that an inclusion function gives, those of first derivatives also by the mean value
+/// theorem.
+DerivativeRanges derivatives_of(const Inclusion<3>& f, const Box<3>& box) {
+  const Point<3> center = box.center();
+  const EnclosedJet<3> on_box = enclosed(f, box), at = enclosed(f, Box<3>{center, center});
+  DerivativeRanges result{on_box.gradient, on_box.hessian};
+  if (!on_box.has_gradient || !on_box.has_hessian || !at.has_gradient) return result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Interval range = at.gradient[i];
+    for (std::size_t j = 0; j < 3; ++j)
+      range = range + on_box.hessian[i][j] * (Interval(box.lo[j], box.hi[j]) - Interval(center[j]));
+    result.first[i] = common_part(result.first[i], range);
+  }
+  return result;
+}
+
+}  // namespace
+
 SurfaceBounds::Net SurfaceBounds::expand(const Box<3>& box, int bits, Kernel& kernel) const {
   // A net's rounding errors are about 2^-bits of the function's terms; second derivatives divide
   // them by the square of the box's width.
@@ -74,6 +98,7 @@ SurfaceBounds::Net SurfaceBounds::expand(const Box<3>& box, int bits, Kernel& ke
 }
 
 IntervalVector SurfaceBounds::gradient(const Box<3>& box, int bits, Kernel& kernel) const {
+  if (f_->is_inclusion()) return derivatives_of(f_->inclusion().exact(), box).first;
   const Net f = expand(box, bits, kernel);
   IntervalVector result;
   for (int i = 0; i < 3; ++i) result[i] = range(f.derivative(f.net, i)) * f.per_unit[i];
@@ -81,6 +106,7 @@ IntervalVector SurfaceBounds::gradient(const Box<3>& box, int bits, Kernel& kern
 }
 
 DerivativeRanges SurfaceBounds::derivatives(const Box<3>& box, int bits, Kernel& kernel) const {
+  if (f_->is_inclusion()) return derivatives_of(f_->inclusion().exact(), box);
   const Net f = expand(box, bits, kernel);
   DerivativeRanges result;
   for (int i = 0; i < 3; ++i) {

@@ -40,7 +40,8 @@ class SurfaceEncaser {
   bool stop(const char* stage);
   SubdivisionLimits limits(const char* stage);
   void separate_polynomials();
-  void separate_expressions();
+  void separate_others();
+  void leave_open(UnresolvedInSpace* entry) const;
   void add_unresolved(UnresolvedInSpace entry);
   void report_boxes(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
                     const std::string& diagnosis);

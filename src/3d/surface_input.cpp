@@ -4,6 +4,7 @@
 
 #include "3d/surface_encaser.hpp"
 #include "common/components.hpp"
+#include "common/filtered_inclusion.hpp"
 
 namespace encase {
 
@@ -13,8 +14,12 @@ Status bad_input(std::string message) {
   return Status(Error{Error::Code::BadInput, std::move(message)});
 }
 
-Status check(const NamedSurface& surface) {
+Status check(const NamedSurface& surface, const Box<3>& box) {
   const std::string name = "surface '" + surface.name + "'";
+  if (surface.function.is_inclusion()) {
+    const auto trouble = complaint(surface.function.inclusion(), box);
+    return trouble ? bad_input("the inclusion function of " + name + " " + *trouble) : std::nullopt;
+  }
   if (!surface.function.is_polynomial()) {
     const Expression& f = surface.function.expression();
     if (!f.uses(0) && !f.uses(1) && !f.uses(2))
@@ -35,13 +40,13 @@ Status check(const NamedSurface& surface) {
 Status SurfaceEncaser::check_input() const {
   if (result_.region.corners.size() < 4) return bad_input("the region is no polyhedron");
   for (const NamedSurface& surface : result_.input)
-    if (Status bad = check(surface)) return bad;
+    if (Status bad = check(surface, result_.region.bounding_box())) return bad;
   return std::nullopt;
 }
 
 void SurfaceEncaser::separate_components() {
   separate_polynomials();
-  separate_expressions();
+  separate_others();
   for (const Surface& surface : result_.surfaces) surfaces_.emplace_back(surface.function);
   notes_ = result_.degenerate.size();
 }
@@ -88,8 +93,8 @@ void SurfaceEncaser::separate_polynomials() {
   }
 }
 
-/// Equal expressions are one surface; nothing else is known of what they have in common.
-void SurfaceEncaser::separate_expressions() {
+/// Equal ones are one surface; nothing else is known of what they have in common.
+void SurfaceEncaser::separate_others() {
   const std::size_t first = result_.surfaces.size();
   for (std::size_t k = 0; k < result_.input.size(); ++k) {
     const NamedSurface& from = result_.input[k];

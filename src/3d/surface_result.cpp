@@ -28,6 +28,16 @@ void SurfaceEncaser::add_unresolved(UnresolvedInSpace entry) {
       .push_back(std::move(entry));
 }
 
+/// Where an inclusion function tells no more, nothing is known to be degenerate.
+void SurfaceEncaser::leave_open(UnresolvedInSpace* entry) const {
+  const bool given = std::any_of(entry->surfaces.begin(), entry->surfaces.end(), [&](int s) {
+    return surfaces_[static_cast<std::size_t>(s)].is_inclusion();
+  });
+  if (!given || entry->kind == Unresolved::Kind::Budget) return;
+  entry->kind = Unresolved::Kind::Budget;
+  entry->reason += ", or an inclusion function tells too little";
+}
+
 /// The boxes were halved as far as sizes go, unless a budget ran out.
 void SurfaceEncaser::report_boxes(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
                                   const std::string& diagnosis) {
@@ -43,6 +53,7 @@ void SurfaceEncaser::report_boxes(const std::vector<Box<3>>& boxes, UnresolvedIn
   entry.has_box = true;
   if (is_stopped_) entry.kind = Unresolved::Kind::Budget;
   entry.reason = is_stopped_ ? budget_ + " before it was told whether " + diagnosis : diagnosis;
+  leave_open(&entry);
   for (const Box<3>& box : hulls) {
     entry.box = box;
     add_unresolved(entry);
@@ -98,6 +109,7 @@ UnresolvedInSpace SurfaceEncaser::why_not_certified(int index) const {
     entry.reason = cell.reason;
     for (std::size_t s = 0; s < leaf.signs.size(); ++s)
       if (leaf.signs[s] == Sign::Zero) entry.surfaces.push_back(static_cast<int>(s));
+    leave_open(&entry);
     return entry;
   }
   Diagnosis diagnosis = diagnose(index);
@@ -108,6 +120,7 @@ UnresolvedInSpace SurfaceEncaser::why_not_certified(int index) const {
   entry.reason = at_cap ? diagnosis.reason
                         : (budget_.empty() ? "the limit on cells was reached" : budget_) +
                               " before it was told whether " + diagnosis.reason;
+  leave_open(&entry);
   return entry;
 }
 

@@ -30,7 +30,7 @@ bool touches_certified(const SpaceClaims& claims, const Facet& facet) {
 /// Whether a function on a plane is a constant other than zero.
 bool is_constant_but_zero(const Function<2>& f, Kernel& kernel) {
   if (f.is_polynomial()) return f.polynomial().is_constant() && !f.polynomial().is_zero();
-  if (f.expression().uses(0) || f.expression().uses(1)) return false;
+  if (f.is_inclusion() || f.expression().uses(0) || f.expression().uses(1)) return false;
   return FilteredFunction<2>(f).sign_at({0, 0}, kernel) != Sign::Zero;
 }
 

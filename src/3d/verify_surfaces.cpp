@@ -46,6 +46,7 @@ bool is_surface(const Function<3>& f) {
     }
     return f.polynomial().degree() >= 1 && f.polynomial().degree() <= kMaxDegree;
   }
+  if (f.is_inclusion()) return true;
   for (const Expression::Step& step : f.expression().steps())
     if (step.operation == Operation::Constant && !proper(step.constant)) return false;
   return f.expression().uses(0) || f.expression().uses(1) || f.expression().uses(2);
@@ -272,7 +273,8 @@ void check_factors(SpaceClaims& claims, std::set<int>* repeated) {
   }
 }
 
-void check_expressions(SpaceClaims& claims) {
+/// What is no polynomial is that of the input.
+void check_others(SpaceClaims& claims) {
   const SurfaceEncasement& e = claims.result;
   std::vector<int> count(e.input.size(), 0);
   for (std::size_t s = 0; s < e.surfaces.size(); ++s) {
@@ -282,11 +284,11 @@ void check_expressions(SpaceClaims& claims) {
       if (e.input[i].function == e.surfaces[s].function) equal.push_back(static_cast<int>(i));
     for (const int i : equal) ++count[static_cast<std::size_t>(i)];
     claims.require(equal == e.surfaces[s].sources, "Surface ", s,
-                   " is not the expression of its sources, or not of them alone.");
+                   " is not the function of its sources, or not of them alone.");
   }
   for (std::size_t i = 0; i < e.input.size(); ++i)
     if (!e.input[i].function.is_polynomial())
-      claims.require(count[i] == 1, "The expression of input surface ", i,
+      claims.require(count[i] == 1, "The function of input surface ", i,
                      " is not that of one surface.");
 }
 
@@ -318,7 +320,7 @@ void check_components(SpaceClaims& claims, const std::set<int>& repeated) {
 void check_surfaces(SpaceClaims& claims) {
   std::set<int> repeated;
   check_factors(claims, &repeated);
-  check_expressions(claims);
+  check_others(claims);
   check_components(claims, repeated);
 }
 

@@ -68,14 +68,16 @@ void join_neighbours(std::vector<Box<2>>* boxes) {
 /// Halves what has no model, breadth first, along the axis along which more comes of it.
 class GapFinder {
  public:
-  GapFinder(const FilteredExpression<2>& f, const Box<2>& root, Kernel& kernel)
+  GapFinder(const FilteredFunction<2>& f, const Box<2>& root, Kernel& kernel)
       : f_(f), root_(root), kernel_(kernel) {}
 
   std::vector<Box<2>> run() {
     sort_out(root_, content(root_));
     if (open_.empty()) return std::move(gaps_);
     easier_axis_ = easier_axis();
-    const std::size_t few = numerator_of(f_.exact()).divisors.empty() ? kFew : kFewOfQuotients;
+    const bool quotient =
+        f_.is_expression() && !numerator_of(f_.expression().exact()).divisors.empty();
+    const std::size_t few = quotient ? kFewOfQuotients : kFew;
     for (std::size_t before = 1; !open_.empty();) {
       const std::vector<Box<2>> level = std::exchange(open_, {});
       const bool along_line =
@@ -163,7 +165,7 @@ class GapFinder {
     return true;
   }
 
-  const FilteredExpression<2>& f_;
+  const FilteredFunction<2>& f_;
   const Box<2>& root_;
   Kernel& kernel_;
   int easier_axis_ = -1;
@@ -184,7 +186,7 @@ Box<2> grown(const Box<2>& gap, double part, double tiny) {
 
 }  // namespace
 
-std::vector<Box<2>> find_gaps(const FilteredExpression<2>& f, const Box<2>& root, Kernel& kernel) {
+std::vector<Box<2>> find_gaps(const FilteredFunction<2>& f, const Box<2>& root, Kernel& kernel) {
   return GapFinder(f, root, kernel).run();
 }
 

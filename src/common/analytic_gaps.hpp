@@ -3,18 +3,19 @@
 
 #include <vector>
 
-#include "common/filtered_expression.hpp"
+#include "common/filtered_function.hpp"
 #include "encase/geometry.hpp"
 
 /// Where an expression is not proved to be analytic (but for poles that hold no zeros): where it
-/// has no value and where it is not differentiable.
+/// has no value and where it is not differentiable. Likewise where an inclusion function tells
+/// nothing.
 namespace encase {
 
 /// Boxes within `root`; on a neighbourhood of every point of the root outside of them the
-/// expression has a model. Isolated points get tiny boxes, lines along an axis strips of about a
+/// function has a model. Isolated points get tiny boxes, lines along an axis strips of about a
 /// thousandth of the root's width, other lines a chain of boxes of about a hundredth. Cost: one
 /// small Taylor model where there is one everywhere.
-std::vector<Box<2>> find_gaps(const FilteredExpression<2>& f, const Box<2>& root, Kernel& kernel);
+std::vector<Box<2>> find_gaps(const FilteredFunction<2>& f, const Box<2>& root, Kernel& kernel);
 
 /// Somewhat larger: what searches on lines leave out, and what contains that.
 Box<2> left_out_at(const Box<2>& gap);

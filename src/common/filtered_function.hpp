@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/filtered_expression.hpp"
+#include "common/filtered_inclusion.hpp"
 #include "common/filtered_polynomial.hpp"
 #include "encase/function.hpp"
 
@@ -15,23 +16,44 @@ namespace encase {
 /// answers are those of what it holds. Values are scaled as those of FilteredPolynomial.
 template <int D>
 class FilteredFunction {
-  using Filtered = std::variant<FilteredPolynomial<D>, FilteredExpression<D>>;
+  using Filtered = std::variant<FilteredPolynomial<D>, FilteredExpression<D>, FilteredInclusion<D>>;
 
  public:
   explicit FilteredFunction(const Function<D>& function)
       : filtered_(function.is_polynomial() ? Filtered(FilteredPolynomial<D>(function.polynomial()))
-                                           : FilteredExpression<D>(function.expression())) {}
+                  : function.is_expression()
+                      ? Filtered(FilteredExpression<D>(function.expression()))
+                      : FilteredInclusion<D>(function.inclusion())) {}
   explicit FilteredFunction(Polynomial<D> polynomial)
       : filtered_(FilteredPolynomial<D>(std::move(polynomial))) {}
 
   bool is_polynomial() const { return std::holds_alternative<FilteredPolynomial<D>>(filtered_); }
+  bool is_expression() const { return std::holds_alternative<FilteredExpression<D>>(filtered_); }
   /// Only of a polynomial.
   const FilteredPolynomial<D>& polynomial() const {
     return std::get<FilteredPolynomial<D>>(filtered_);
   }
+  /// Only of what an inclusion function encloses.
+  bool is_inclusion() const { return std::holds_alternative<FilteredInclusion<D>>(filtered_); }
+  const FilteredInclusion<D>& inclusion() const {
+    return std::get<FilteredInclusion<D>>(filtered_);
+  }
   /// Only of an expression.
   const FilteredExpression<D>& expression() const {
     return std::get<FilteredExpression<D>>(filtered_);
+  }
+
+  /// The Taylor model on center + half * [-1,1]^D, as FilteredExpression's or FilteredInclusion's;
+  /// not of a polynomial.
+  const TaylorModel<D, double>& model(const Point<D>& center, const Point<D>& half, int degree,
+                                      int bits, Kernel& kernel) const {
+    if (is_expression()) return expression().model(center, half, degree, bits, kernel);
+    return inclusion().local(center, half, kernel).model;
+  }
+  /// As FilteredExpression's; not of a polynomial.
+  double precise_value(const Point<D>& point, double error, int max_bits) const {
+    if (is_expression()) return expression().precise_value(point, error, max_bits);
+    return inclusion().precise_value(point, error, max_bits);
   }
 
   /// The degree of its Bernstein forms: that of a polynomial.
@@ -51,10 +73,12 @@ class FilteredFunction {
     std::visit([&](const auto& f) { f.restrict_to(segment, bits, kernel, net); }, filtered_);
   }
   /// Whether a net from more precise arithmetic could be closer to the function: on large parts of
-  /// the plane an expression's lacks terms, which precision does not bring back.
+  /// the plane an expression's lacks terms, which precision does not bring back; of an inclusion
+  /// function there is no more.
   template <int K>
   bool precision_helps(const Bernstein<K>& net) const {
-    return is_polynomial() || net.radius < 0x1p-32 * (1 + largest_coefficient(net));
+    if (is_polynomial()) return true;
+    return is_expression() && net.radius < 0x1p-32 * (1 + largest_coefficient(net));
   }
   using Value = typename FilteredPolynomial<D>::Value;
   Value evaluate(const Point<D>& point, int bits) const {
@@ -77,7 +101,7 @@ class FilteredFunction {
   Jet jet(const Point<D>& point) const requires(D == 2) {
     return std::visit([&](const auto& f) { return f.jet(point); }, filtered_);
   }
-  /// The exact sign of a polynomial; of an expression Zero means that none was proved.
+  /// The exact sign of a polynomial; of others Zero means that none was proved.
   Sign sign_at(const RationalPoint<D>& point, Kernel& kernel) const {
     return std::visit([&](const auto& f) { return f.sign_at(point, kernel); }, filtered_);
   }

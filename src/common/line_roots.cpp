@@ -26,6 +26,7 @@ constexpr double kLeastPart = 0x1p-24;       // of a piece that is still cut
 constexpr double kLeastCutPart = 0x1p-5;     // of one that is cut for its bend where errors matter
 constexpr double kExpansionError = 0x1p-50;  // of a tile that lacks no terms, about
 constexpr double kLocalError = 0x1p-28;      // of a local tile that serves, relative to its sum
+constexpr double kLocalErrorOfSquares = 0x1p-7;  // likewise, of an inclusion function's
 constexpr int kMaxNodesWithoutRoot = 4000;
 
 double roundings(int count) { return 1.01 * count * kRounding; }
@@ -429,6 +430,7 @@ class PathSearch {
     if (level > kMaxLevel || top_ + 1 >= kMaxWaiting) return false;
     Tile tile;
     double from = lo;
+    const double tolerated = f_.polynomial().is_inclusion() ? kLocalErrorOfSquares : kLocalError;
     while (from < hi) {
       if (--nodes_left_ < 0) return false;
       Piece piece;
@@ -438,7 +440,7 @@ class PathSearch {
       piece.hi = from + step * 1.01 < hi ? from + step : hi;
       if (!(piece.lo < piece.hi)) return false;
       f_.expand(box_around(piece.lo, piece.hi), bits, &tile);
-      const bool serves = tile.error <= kLocalError * tile.sum || step < 0x1p-10 * (hi - lo);
+      const bool serves = tile.error <= tolerated * tile.sum || step < 0x1p-10 * (hi - lo);
       if (!place_exactly(&piece)) return false;
       const Part& whole = restrict_by_powers(&piece);
       if (!serves || (piece.hi < hi && !known(whole.net.signs, piece.degree()))) {

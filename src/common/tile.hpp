@@ -80,11 +80,11 @@ class TiledFunction {
   /// Takes those of the same function in a larger box.
   void take_gaps_of(const TiledFunction& outer) { gaps_ = outer.gaps_; }
   /// Whether tiles lack nothing of f but roundings: it is a polynomial of a low degree.
-  bool fits_tiles() const { return !expression_ && f_->degree() <= Tile::kMaxDegree; }
+  bool fits_tiles() const { return f_->is_polynomial() && f_->degree() <= Tile::kMaxDegree; }
   /// Whether a smaller tile, and not a more precise one, would be closer to f, as far as the size
   /// of the error tells: roundings are those of numbers of about the size 1, or of the values.
   bool wants_smaller(const Tile& tile) const {
-    return expression_ && !(tile.error < 0x1p-32 * (tile.sum < 1 ? 1 : tile.sum));
+    return !f_->is_polynomial() && !(tile.error < 0x1p-32 * (tile.sum < 1 ? 1 : tile.sum));
   }
 
   /// The tile whose rectangle holds the point (one of them on borders; the nearest for a point
@@ -125,8 +125,7 @@ class TiledFunction {
   double precise_error(const Point<2>& reach) const;
 
   const FilteredFunction<2>* f_;
-  const FilteredExpression<2>* expression_;  ///< what f is, or nothing
-  double value_error_ = 0;                   ///< of an expression
+  double value_error_ = 0;  ///< of what is no polynomial
   std::vector<Box<2>> gaps_;
   Kernel* kernel_;
   Box<2> root_;

@@ -55,8 +55,8 @@ bool is_quarter(const Box<2>& box, int upper, const Point<2>& center, const Poin
 }
 
 /// Whether the tile serves for the whole rectangle: its terms of higher degree do not matter, and
-/// patches some times smaller than the rectangle keep close to it.
-bool tile_serves(const Tile& tile, double dropped) {
+/// patches some times smaller than the rectangle keep close to it. `tolerated`: beside the others.
+bool tile_serves(const Tile& tile, double dropped, double tolerated) {
   if (tile.undefined) return true;
   static const auto weights = [] {
     std::array<double, 8> w;
@@ -68,19 +68,25 @@ bool tile_serves(const Tile& tile, double dropped) {
     for (int j = 0; i + j <= 2; ++j) size += std::fabs(tile.a[i][j]);
   double loss = 0;
   for (int k = 0; k < 8; ++k) loss += weights[k] * tile.high_terms[k];
-  return dropped <= 0x1p-14 * size && loss <= 0x1p-5 * size;
+  return dropped <= tolerated * size && loss <= 0x1p-5 * size;
 }
 
-/// The greatest of some values of an expression, or 1 if there is none.
-double typical_size(const FilteredExpression<2>& f, const Box<2>& box) {
-  double size = 0;
+/// The error that values of a function that is no polynomial may have: a small part of the greatest
+/// of some values of an expression, or of 1 if there is none; of an inclusion function more than
+/// the least errors there are at some points.
+double tolerated_error(const FilteredFunction<2>& f, const Box<2>& box) {
+  double size = 0, error = 0;
   for (const double u : {0.1, 0.5, 0.8})
     for (const double v : {0.2, 0.5, 0.9}) {
-      const double value =
-          f.approximate({box.lo[0] + u * box.width(0), box.lo[1] + v * box.width(1)});
-      if (std::isfinite(value)) size = std::max(size, std::fabs(value));
+      const Point<2> point{box.lo[0] + u * box.width(0), box.lo[1] + v * box.width(1)};
+      if (f.is_expression()) {
+        const double value = f.approximate(point);
+        if (std::isfinite(value)) size = std::max(size, std::fabs(value));
+      } else if (const auto at = f.evaluate(point, Kernel::kDoubleBits); std::isfinite(at.error)) {
+        error = std::max(error, at.error);
+      }
     }
-  return size > 0 ? size : 1;
+  return f.is_expression() ? 0x1p-100 * (size > 0 ? size : 1) : 16 * error;
 }
 
 }  // namespace
@@ -189,15 +195,14 @@ struct TiledFunction::Workspace {
 
 TiledFunction::TiledFunction(const FilteredFunction<2>& f, const Box<2>& box, Kernel& kernel)
     : f_(&f),
-      expression_(f.is_polynomial() ? nullptr : &f.expression()),
       kernel_(&kernel),
       root_(box),
-      workspace_(std::make_unique<Workspace>(expression_ ? Tile::kMaxDegree : f.degree())) {
+      workspace_(std::make_unique<Workspace>(f.is_polynomial() ? f.degree() : Tile::kMaxDegree)) {
   workspace_->root.box = box;
   workspace_->root.center = box.center();
-  if (expression_) {
-    value_error_ = 0x1p-100 * typical_size(*expression_, box);
-    gaps_ = find_gaps(*expression_, box, kernel);
+  if (!f.is_polynomial()) {
+    value_error_ = tolerated_error(f, box);
+    gaps_ = find_gaps(f, box, kernel);
     return;
   }
   const std::size_t n = static_cast<std::size_t>(f.degree());
@@ -249,7 +254,8 @@ void TiledFunction::develop(Node& node) {
     for (int i = 0; i < 2; ++i) ((k >> i) % 2 ? child.box.lo : child.box.hi)[i] = node.center[i];
     child.center = child.box.center();
   }
-  if (!expression_ && f_->degree() <= kMaxHalved && kernel_->start_bits <= Kernel::kDoubleBits &&
+  if (f_->is_polynomial() && f_->degree() <= kMaxHalved &&
+      kernel_->start_bits <= Kernel::kDoubleBits &&
       std::isfinite((expansion ? expansion : &w.local)->sum))
     halve(expansion ? *expansion : w.local, children);
   if (expansion) w.give_back(expansion);
@@ -258,7 +264,9 @@ void TiledFunction::develop(Node& node) {
 
 /// Whether the tile just made serves for the node: then it is kept.
 bool TiledFunction::serves(Node& node, Tile& tile, double dropped) {
-  if (node.depth < kMaxDepth && !tile_serves(tile, dropped)) return false;
+  // What an inclusion function's lacks does not shrink fast.
+  const double tolerated = f_->is_inclusion() ? 0x1p-4 : 0x1p-14;
+  if (node.depth < kMaxDepth && !tile_serves(tile, dropped, tolerated)) return false;
   workspace_->keep();
   node.tile.store(&tile, std::memory_order_release);
   return true;
@@ -329,7 +337,7 @@ double TiledFunction::make(const Box<2>& box, int bits, bool in_tree, Tile* tile
   const int n = f_->degree();
   place(tile, box);
   tile->bits = bits;
-  if (expression_) return make_from_model(bits, tile);
+  if (!f_->is_polynomial()) return make_from_model(bits, tile);
   const Point<2> reach = reach_of(*tile);
   tile->value_error = precise_error(reach);
   PairedCoefficients& c = expansion->coefficients;
@@ -353,11 +361,15 @@ double TiledFunction::make(const Box<2>& box, int bits, bool in_tree, Tile* tile
   return sums.dropped;
 }
 
-/// Makes a tile, that has its place, of an expression's Taylor model. Returns the error.
+/// Makes a tile, that has its place, of the Taylor model of what is no polynomial. Returns the
+/// error.
 double TiledFunction::make_from_model(int bits, Tile* tile) {
   using Model = TaylorModel<2, double>;
+  const auto* local =
+      f_->is_inclusion() ? &f_->inclusion().local(tile->center, tile->half, *kernel_) : nullptr;
   const Model& model =
-      expression_->model(tile->center, tile->half, Tile::kMaxDegree, bits, *kernel_);
+      local ? local->model
+            : f_->expression().model(tile->center, tile->half, Tile::kMaxDegree, bits, *kernel_);
   PairedCoefficients& c = workspace_->scratch;
   std::fill_n(c.memory->x, 8 * PairedCoefficients::size_for(Tile::kMaxDegree), 0.0);
   for (int i = 0; model.exists() && i <= model.span[0]; ++i)
@@ -370,8 +382,13 @@ double TiledFunction::make_from_model(int bits, Tile* tile) {
     return tile->error;
   }
   tile->error = model.error;
-  tile->slope_error = Model::kSlope * model.error * kUp;
-  tile->bend_error = Model::kBend * model.error * kUp;
+  if (local) {
+    tile->slope_error = std::max(local->slope_error[0], local->slope_error[1]);
+    tile->bend_error = 2 * model.error;
+  } else {
+    tile->slope_error = Model::kSlope * model.error * kUp;
+    tile->bend_error = Model::kBend * model.error * kUp;
+  }
   tile->value_error = value_error_;
   return tile->error;
 }
@@ -411,12 +428,12 @@ double TiledFunction::precise_error(const Point<2>& reach) const {
 }
 
 double TiledFunction::value(const Point<2>& point) const {
-  if (expression_) return expression_->precise_value(point, value_error_, kernel_->max_bits);
+  if (!f_->is_polynomial()) return f_->precise_value(point, value_error_, kernel_->max_bits);
   return precise_value(workspace_->original, f_->degree(), point[0], point[1]);
 }
 
 void TiledFunction::values(const Point<2>* points, int count, double* result) const {
-  if (expression_) {
+  if (!f_->is_polynomial()) {
     for (int k = 0; k < count; ++k) result[k] = value(points[k]);
     return;
   }

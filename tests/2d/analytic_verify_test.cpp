@@ -197,7 +197,7 @@ TEST(AnalyticVerify, EqualExpressionsAreOneCurve) {
     EXPECT_NE(text(verify(mutant)).find(reason), std::string::npos) << text(verify(mutant));
   };
   refused("is not reported", [](auto& m) { m.degenerate.clear(); });
-  refused("is not the expression of its sources", [](auto& m) { m.curves[0].sources = {0}; });
+  refused("is not the function of its sources", [](auto& m) { m.curves[0].sources = {0}; });
 }
 
 TEST(AnalyticVerify, OtherCurvesThanThoseOfTheInputAreRefused) {
@@ -211,10 +211,10 @@ TEST(AnalyticVerify, OtherCurvesThanThoseOfTheInputAreRefused) {
                                                                     << text(verify(mutant));
   };
   const Expression f = scene.curves[0].function.expression();
-  refused("is not the expression of its sources",
+  refused("is not the function of its sources",
           [&](auto& m) { m.curves[0].function = f + c(1, 1000); });
   // The same curve, but who would know.
-  refused("is not the expression of its sources",
+  refused("is not the function of its sources",
           [&](auto& m) { m.curves[0].function = c(2) * f; });
   refused("is not that of one curve", [&](auto& m) { m.input[0].function = f * c(2); });
   refused("is not that of one curve", [&](auto& m) {
