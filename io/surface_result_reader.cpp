@@ -162,6 +162,8 @@ TriplePoint read_triple_point(const JsonNode& node, std::size_t surfaces, std::s
   t.point = node.member("point").point<3>();
   t.rounded = node.member("rounded").boolean();
   t.box = node.member("box").box<3>();
+  const JsonNode location = node.member("location");
+  if (!location.is_null()) t.location = location.one_of(kLocations);
   t.cell = node.member("cell").index_or_null(cells);
   return t;
 }
@@ -240,6 +242,7 @@ std::vector<UnresolvedInSpace> read_unresolved(const JsonNode& node, const Surfa
     place.surfaces =
         item.member("surfaces")
             .indices(names_input_curves(place.kind) ? e.input.size() : e.surfaces.size());
+    place.cells = item.member("cells").indices(e.cells.size());
     place.proved = item.member("proved").boolean();
     place.reason = item.member("reason").text();
     return place;
@@ -269,7 +272,10 @@ StoredSurfaces read_surfaces(const JsonNode& root) {
   StoredSurfaces stored;
   SurfaceEncasement& e = stored.encasement;
   e.outcome = root.member("status").one_of(kOutcomes);
-  e.input = read_functions<3>(root.member("input").member("surfaces"));
+  const JsonNode input = root.member("input");
+  e.input = read_functions<3>(input.member("surfaces"));
+  e.perturbation = input.member("delta").number();
+  e.seed = input.member("seed").unsigned_integer();
   e.surfaces = root.member("surfaces").map([&](const JsonNode& surface) {
     return Surface{surface.member("name").text(), read_function<3>(surface),
                    surface.member("sources").indices(e.input.size())};

@@ -88,6 +88,11 @@ void put_points(JsonWriter& w, const SurfaceEncasement& e) {
     w.field("point", t.point);
     w.field("rounded", t.rounded);
     w.field("box", t.box);
+    w.key("location");
+    if (t.location)
+      w.put(name_of(kLocations, *t.location));
+    else
+      w.raw("null");
     w.key("cell"), w.put_index(t.cell);
     w.raw("}");
   });
@@ -185,6 +190,7 @@ void put_unresolved(JsonWriter& w, const std::vector<UnresolvedInSpace>& places)
     else
       w.raw("null");
     w.field("surfaces", place.surfaces);
+    w.field("cells", place.cells);
     w.field("proved", place.proved);
     w.field("reason", place.reason);
     w.raw("}");
@@ -226,6 +232,8 @@ std::string to_json(const SurfaceEncasement& e, const SpaceArrangement* arrangem
     put_function(w, surface.function);
     w.raw("}");
   });
+  w.field("delta", e.perturbation);
+  w.field("seed", e.seed);
   w.raw("}");
   top("surfaces");
   w.lines(e.surfaces, [&](const Surface& surface) {

@@ -202,10 +202,18 @@ void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
       ->type_name("A")
       ->capture_default_str();
   c->add_flag("--summary", r.summary, "print one JSON object of counts and nothing else");
-  c->add_option("--perturb", r.perturbation, "perturb every coefficient c by up to DELTA (1 + |c|)")
+  c->add_option("--perturb", r.options.perturbation,
+                "perturb every coefficient c by up to DELTA (1 + |c|)")
       ->type_name("DELTA")
       ->check(CLI::PositiveNumber);
-  c->add_option("--seed", r.seed, "of the perturbation")->type_name("N")->capture_default_str();
+  c->add_option("--seed", r.options.seed, "of the perturbation")
+      ->type_name("N")
+      ->capture_default_str();
+  c->add_option("--singular-width", r.options.singular_width,
+                "of the cells along singular curves, in parts of the region's size")
+      ->type_name("PART")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   add_budgets(*c, r.options);
   c->add_flag("-q", r.quiet, "print no report");
   c->add_flag("-v", r.verbose, "report what each step did");

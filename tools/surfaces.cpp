@@ -7,11 +7,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 
-#include "common/perturb.hpp"
 #include "encase/intersection_curves.hpp"
 #include "encase/surface_mesh.hpp"
 #include "encase/surface_result_json.hpp"
@@ -43,7 +41,7 @@ Status check_request(const SurfacesRequest& r) {
     return bad_input("--start-bits is above --max-bits");
   if (!std::isfinite(r.options.max_seconds))
     return bad_input("--max-seconds must be a finite number");
-  if (!(r.perturbation >= 0 && r.perturbation < 1))
+  if (!(r.options.perturbation >= 0 && r.options.perturbation < 1))
     return bad_input("--perturb must be between 0 and 1");
   if (!(r.angle > 0 && r.angle < 1.5)) return bad_input("--angle must be between 0 and 1.5");
   if (!(r.tolerance >= 0 && std::isfinite(r.tolerance)))
@@ -64,17 +62,6 @@ Status check_request(const SurfacesRequest& r) {
   for (const std::string* path : {&r.json, &r.mesh})
     if (const Status status = check_writable(*path)) return status;
   return check_writable_directory(r.vtk_directory);
-}
-
-Status perturb_all(const SurfacesRequest& r, std::vector<NamedSurface>* surfaces) {
-  if (r.perturbation == 0) return {};
-  std::mt19937_64 generator(r.seed);
-  for (NamedSurface& surface : *surfaces) {
-    if (!surface.function.is_polynomial())
-      return bad_input("surface '" + surface.name + "' is no polynomial and cannot be perturbed");
-    surface.function = perturb(surface.function.polynomial(), r.perturbation, generator);
-  }
-  return {};
 }
 
 double tolerance(const SurfacesRequest& r, const SurfaceEncasement& encasement) {
@@ -143,7 +130,6 @@ ExitCode run_surfaces(SurfacesRequest request) {
   if (const Status status = check_request(request)) return fail(*status);
   auto input = read_surfaces_input(request.file, request.expressions, request.region);
   if (!input) return fail(input.error());
-  if (const Status status = perturb_all(request, &input.value().surfaces)) return fail(*status);
 
   const bool on_terminal = request.json == "-" && isatty(STDOUT_FILENO);
   std::optional<Progress> progress(std::in_place, !request.quiet && !on_terminal);

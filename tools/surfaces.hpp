@@ -24,8 +24,6 @@ struct SurfacesRequest {
   bool summary = false;
   bool quiet = false;
   bool verbose = false;
-  double perturbation = 0;
-  std::uint64_t seed = 1;
   SurfaceOptions options;
 };
 

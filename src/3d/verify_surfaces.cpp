@@ -213,6 +213,8 @@ void check_entry_structure(SpaceClaims& claims) {
                                                          : all_in_range(u.surfaces, e.surfaces)),
                      name, " entry ", k, " does not name ascending indices of surfaces.");
       claims.require(!u.has_box || ordered(u.box), name, " entry ", k, " has a bad box.");
+      claims.require(ascending(u.cells) && all_in_range(u.cells, e.cells), name, " entry ", k,
+                     " does not name ascending indices of cells.");
     }
 }
 
@@ -322,6 +324,24 @@ void check_surfaces(SpaceClaims& claims) {
   check_components(claims, repeated);
 }
 
+namespace {
+
+/// Every cell that is not certified is named by one entry, in the list of its state.
+void check_open_cells(SpaceClaims& claims) {
+  const SurfaceEncasement& e = claims.result;
+  std::vector<int> degenerate(e.cells.size(), 0), undecided(e.cells.size(), 0);
+  for (const UnresolvedInSpace& u : e.degenerate)
+    for (const int cell : u.cells) ++degenerate[static_cast<std::size_t>(cell)];
+  for (const UnresolvedInSpace& u : e.undecided)
+    for (const int cell : u.cells) ++undecided[static_cast<std::size_t>(cell)];
+  for (std::size_t k = 0; k < e.cells.size(); ++k)
+    claims.require(degenerate[k] == (e.cells[k].state == CellState::Degenerate ? 1 : 0) &&
+                       undecided[k] == (e.cells[k].state == CellState::Undecided ? 1 : 0),
+                   "Cell ", k, " is not named by one entry of what its state says.");
+}
+
+}  // namespace
+
 void check_space_outcome(SpaceClaims& claims) {
   const SurfaceEncasement& e = claims.result;
   bool settled = true, undecided = !e.undecided.empty();
@@ -332,6 +352,7 @@ void check_space_outcome(SpaceClaims& claims) {
   const Outcome outcome = undecided                         ? Outcome::Undecided
                           : settled && e.degenerate.empty() ? Outcome::Certified
                                                             : Outcome::Degenerate;
+  check_open_cells(claims);
   claims.require(e.outcome == outcome, "The outcome should be ",
                  outcome == Outcome::Certified   ? "certified"
                  : outcome == Outcome::Undecided ? "undecided"
