@@ -74,9 +74,10 @@ void put_history(JsonWriter& w, const std::vector<Split>& history);
 std::vector<Split> read_history(const JsonNode& node, std::size_t cuts, std::size_t cells);
 
 /// Places of results of curves or surfaces, with the list `Place::*functions` under the key `of`.
-template <class Place>
+/// `put_rest` puts what else there is of a place.
+template <class Place, class PutRest>
 void put_unresolved(JsonWriter& w, const std::vector<Place>& places, const char* of,
-                    std::vector<int> Place::*functions) {
+                    std::vector<int> Place::*functions, const PutRest& put_rest) {
   w.lines(places, [&](const Place& place) {
     w.raw("{");
     w.field("kind", name_of(kUnresolvedKinds, place.kind));
@@ -88,6 +89,7 @@ void put_unresolved(JsonWriter& w, const std::vector<Place>& places, const char*
     w.field(of, place.*functions);
     w.field("proved", place.proved);
     w.field("reason", place.reason);
+    put_rest(place);
     w.raw("}");
   });
 }

@@ -78,6 +78,10 @@ void put_cell(JsonWriter& w, const Cell& cell, int id) {
   w.raw("}");
 }
 
+void put_unresolved(JsonWriter& w, const std::vector<Unresolved>& places) {
+  put_unresolved(w, places, "curves", &Unresolved::curves, [](const Unresolved&) {});
+}
+
 void put_covers(JsonWriter& w, const Encasement& e) {
   w.raw("{");
   if (!e.shared_cover.tokens.empty()) {
@@ -179,8 +183,8 @@ std::string write_result(const Encasement& e, const Arrangement* arrangement,
     w.key("curve"), w.put_index(piece.curve);
     w.raw("}");
   });
-  w.section("degenerate"), put_unresolved(w, e.degenerate, "curves", &Unresolved::curves);
-  w.section("undecided"), put_unresolved(w, e.undecided, "curves", &Unresolved::curves);
+  w.section("degenerate"), put_unresolved(w, e.degenerate);
+  w.section("undecided"), put_unresolved(w, e.undecided);
   if (arrangement) w.section("arrangement"), put_arrangement(w, *arrangement);
   w.section("statistics"), put_statistics(w, e.statistics, !e.shared_cover.tokens.empty());
   w.raw("\n}\n");

@@ -125,6 +125,8 @@ TriplePoint read_triple_point(const JsonNode& node, std::size_t surfaces, std::s
   t.point = node.member("point").point<3>();
   t.rounded = node.member("rounded").boolean();
   t.box = node.member("box").box<3>();
+  const JsonNode location = node.member("location");
+  if (!location.is_null()) t.location = location.one_of(kLocations);
   t.cell = node.member("cell").index_or_null(cells);
   return t;
 }
@@ -187,7 +189,10 @@ StoredSurfaces read_surfaces(const JsonNode& root) {
   StoredSurfaces stored;
   SurfaceEncasement& e = stored.encasement;
   e.outcome = root.member("status").one_of(kOutcomes);
-  e.input = read_functions<3>(root.member("input").member("surfaces"));
+  const JsonNode input = root.member("input");
+  e.input = read_functions<3>(input.member("surfaces"));
+  e.perturbation = input.member("delta").number();
+  e.seed = input.member("seed").unsigned_integer();
   e.surfaces = root.member("surfaces").map([&](const JsonNode& surface) {
     return Surface{surface.member("name").text(), read_function<3>(surface),
                    surface.member("sources").indices(e.input.size())};
@@ -225,8 +230,12 @@ StoredSurfaces read_surfaces(const JsonNode& root) {
   e.cells = root.member("cells").map([&](const JsonNode& item) { return read_cell(item, e); });
   e.history = read_history(root.member("history"), e.planes.size(), counts.cells);
   const auto unresolved = [&](const char* key) {
-    return read_unresolved(root.member(key), "surfaces", &UnresolvedInSpace::surfaces,
-                           e.input.size(), surfaces);
+    const JsonNode node = root.member(key);
+    auto places =
+        read_unresolved(node, "surfaces", &UnresolvedInSpace::surfaces, e.input.size(), surfaces);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      places[k].cells = node.item(static_cast<int>(k)).member("cells").indices(counts.cells);
+    return places;
   };
   e.degenerate = unresolved("degenerate");
   e.undecided = unresolved("undecided");

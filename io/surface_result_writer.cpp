@@ -84,6 +84,11 @@ void put_points(JsonWriter& w, const SurfaceEncasement& e) {
     w.field("point", t.point);
     w.field("rounded", t.rounded);
     w.field("box", t.box);
+    w.key("location");
+    if (t.location)
+      w.put(name_of(kLocations, *t.location));
+    else
+      w.raw("null");
     w.key("cell"), w.put_index(t.cell);
     w.raw("}");
   });
@@ -169,6 +174,11 @@ void put_certificates(JsonWriter& w, const SurfaceEncasement& e) {
   w.raw("}");
 }
 
+void put_unresolved(JsonWriter& w, const std::vector<UnresolvedInSpace>& places) {
+  put_unresolved(w, places, "surfaces", &UnresolvedInSpace::surfaces,
+                 [&](const UnresolvedInSpace& place) { w.field("cells", place.cells); });
+}
+
 void put_statistics(JsonWriter& w, const SpaceStatistics& s) {
   w.raw("{");
   put_decisions(w, s.decisions);
@@ -185,7 +195,10 @@ void put_statistics(JsonWriter& w, const SpaceStatistics& s) {
 std::string to_json(const SurfaceEncasement& e, const SpaceArrangement* arrangement) {
   JsonWriter w;
   put_head(w, "surfaces", name_of(kOutcomes, e.outcome));
-  w.section("input"), w.raw("{\"surfaces\":"), put_functions(w, e.input), w.raw("}");
+  w.section("input"), w.raw("{\"surfaces\":"), put_functions(w, e.input);
+  w.field("delta", e.perturbation);
+  w.field("seed", e.seed);
+  w.raw("}");
   w.section("surfaces"), put_encased(w, e.surfaces);
   w.section("region"), put_solid_region(w, e.region);
   w.section("region_used"), put_solid_region(w, e.region_used);
@@ -201,9 +214,8 @@ std::string to_json(const SurfaceEncasement& e, const SpaceArrangement* arrangem
   w.section("certificates"), put_certificates(w, e);
   w.section("history"), put_history(w, e.history);
   if (arrangement) w.section("arrangement"), put_arrangement(w, *arrangement);
-  w.section("degenerate"),
-      put_unresolved(w, e.degenerate, "surfaces", &UnresolvedInSpace::surfaces);
-  w.section("undecided"), put_unresolved(w, e.undecided, "surfaces", &UnresolvedInSpace::surfaces);
+  w.section("degenerate"), put_unresolved(w, e.degenerate);
+  w.section("undecided"), put_unresolved(w, e.undecided);
   w.section("statistics"), put_statistics(w, e.statistics);
   w.raw("\n}\n");
   return w.take();

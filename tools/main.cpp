@@ -191,7 +191,12 @@ void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
   c->add_option("--angle", r.angle, "of meshes: between normals of triangles and surfaces, radians")
       ->type_name("A")
       ->capture_default_str();
-  add_perturbation(*c, r.perturbation, r.seed);
+  add_perturbation(*c, r.options.perturbation, r.options.seed);
+  c->add_option("--singular-width", r.options.singular_width,
+                "of the cells along singular curves, in parts of the region's size")
+      ->type_name("PART")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   add_budgets(*c, r.options);
   add_reports(*c, r);
   c->footer(std::string(kSurfacesFile) + kExitCodes);

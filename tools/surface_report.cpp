@@ -121,6 +121,9 @@ std::string report(const SurfaceEncasement& e) {
   if (const auto n = in_state(CellState::Degenerate)) fmt::format_to(out, ", {} degenerate", n);
   if (const auto n = in_state(CellState::Undecided)) fmt::format_to(out, ", {} undecided", n);
   text += '\n';
+  if (e.perturbation > 0)
+    fmt::format_to(out, "every coefficient is perturbed: delta {}, seed {}\n", e.perturbation,
+                   e.seed);
   if (e.region_used.sides != e.region.sides)
     text +=
         "a slightly larger polyhedron is encased: the region's numbers are no doubles, or a side, "

@@ -3,11 +3,9 @@
 
 #include <cmath>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 
-#include "common/perturb.hpp"
 #include "encase/intersection_curves.hpp"
 #include "encase/surface_mesh.hpp"
 #include "encase/surface_result_json.hpp"
@@ -34,24 +32,13 @@ Status check_options(const SurfacesRequest& r) {
     return bad_input("--history belongs to the VTK files: give their directory with -o");
   if (r.options.start_bits > r.options.max_bits)
     return bad_input("--start-bits is above --max-bits");
-  if (!(r.perturbation >= 0 && r.perturbation < 1))
+  if (!(r.options.perturbation >= 0 && r.options.perturbation < 1))
     return bad_input("--perturb must be between 0 and 1");
   if (!(r.angle > 0 && r.angle < 1.5)) return bad_input("--angle must be between 0 and 1.5");
   if (!(r.tolerance >= 0 && std::isfinite(r.tolerance)))
     return bad_input("--tolerance must be a finite positive number");
   if (const Status status = check_mesh_output(r.mesh)) return status;
   return check_outputs(r);
-}
-
-Status perturb_all(const SurfacesRequest& r, std::vector<NamedSurface>* surfaces) {
-  if (r.perturbation == 0) return {};
-  std::mt19937_64 generator(r.seed);
-  for (NamedSurface& surface : *surfaces) {
-    if (!surface.function.is_polynomial())
-      return bad_input("surface '" + surface.name + "' is no polynomial and cannot be perturbed");
-    surface.function = perturb(surface.function.polynomial(), r.perturbation, generator);
-  }
-  return {};
 }
 
 double tolerance(const SurfacesRequest& r, const SurfaceEncasement& encasement) {
@@ -112,7 +99,6 @@ ExitCode run_surfaces(SurfacesRequest request) {
   if (const Status status = check_options(request)) return fail(*status);
   auto input = read_surfaces_input(request.file, request.expressions, request.region);
   if (!input) return fail(input.error());
-  if (const Status status = perturb_all(request, &input.value().surfaces)) return fail(*status);
 
   std::optional<Progress> progress(std::in_place, may_show_progress(request));
   request.options.progress = progress->callback();

@@ -16,8 +16,6 @@ struct SurfacesRequest : Request {
   bool history = false;  ///< in the VTK files
   double tolerance = 0;  ///< of curves and meshes; 0: 10^-3 of the region's size
   double angle = 0.2;    ///< of meshes: between triangles' and surfaces' normals
-  double perturbation = 0;
-  std::uint64_t seed = 1;
   SurfaceOptions options;
 };
 

@@ -60,10 +60,10 @@ struct SpaceArrangement {
   bool operator==(const SpaceArrangement&) const = default;
 };
 
-/// The arrangement of an encasement's surfaces. Degenerate or Undecided if the encasement is;
-/// Undecided too where a closed sphere shares its cell with another piece of a surface; Internal if
-/// its parts do not fit together, as in one that `verify` objects to. Cost: about that of reading
-/// the encasement.
+/// The arrangement of an encasement's surfaces. Degenerate or Undecided if the encasement is,
+/// Undecided too where a function that is no polynomial has no proved sign on a facet on which it
+/// is constant; Internal if its parts do not fit together, as in one that `verify` objects to.
+/// Cost: about that of reading the encasement.
 Result<SpaceArrangement> arrange(const SurfaceEncasement& encasement);
 
 /// Re-proves the encasement, and that the arrangement is that of it, entry by entry, as `arrange`

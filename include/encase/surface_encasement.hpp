@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@
 /// The encasement of surfaces in a convex polyhedron: a partition of the polyhedron by planes into
 /// convex cells, such that in each cell
 ///   - a surface is absent, or a certified graph along a field of lines whose pieces in the cell
-///   are discs, each bounded by one loop on the cell's boundary (or one closed sphere);
+///   are discs, each bounded by one loop on the cell's boundary; or the only piece of a surface in
+///   the cell is a closed sphere;
 ///   - two surfaces do not meet, or meet in arcs along which a known direction grows, each from one
 ///   point of the cell's boundary to another;
 ///   - three surfaces meet in isolated points, ordered along these arcs.
@@ -86,7 +88,10 @@ struct TriplePoint {
   Box<3> box;
   Point<3> point{};      ///< as Crossing's
   bool rounded = false;  ///< as Crossing's
-  int cell = -1;         ///< the cell that holds it in its interior
+  /// With respect to the region asked, exactly; nothing for a point that is not told apart from a
+  /// plane of its boundary.
+  std::optional<Location> location;
+  int cell = -1;  ///< the cell that holds it in its interior
 };
 
 /// Proof that the list of common points of three surfaces is complete, as CrossingCover.
@@ -163,6 +168,8 @@ struct UnresolvedInSpace {
   Box<3> box;
   bool has_box = false;
   std::vector<int> surfaces;
+  std::vector<int>
+      cells;  ///< that are not certified because of it, ascending; its box is their hull
   bool proved = false;
   std::string reason;
 };
@@ -179,7 +186,9 @@ struct SpaceStatistics {
 /// The answer, with everything that proves it. All indices refer to lists here.
 struct SurfaceEncasement {
   Outcome outcome = Outcome::Undecided;
-  std::vector<NamedSurface> input;
+  std::vector<NamedSurface> input;  ///< as encased from: after perturbation, before reduction
+  double perturbation = 0;          ///< delta, 0 for none
+  std::uint64_t seed = 0;           ///< of the perturbation
   std::vector<Surface> surfaces;
   Polyhedron region;          ///< as asked
   Polyhedron region_used;     ///< partitioned: `region`, or larger by at most 2^-30 of its diameter
@@ -189,7 +198,8 @@ struct SurfaceEncasement {
   std::vector<Facet> facets;
   std::vector<FacetPoint> facet_points;
   std::vector<TriplePoint> triple_points;
-  std::vector<TriplePointCover> triple_point_covers;  ///< one a triple of surfaces
+  /// One a triple of surfaces, but for those of which two are apart in all cells.
+  std::vector<TriplePointCover> triple_point_covers;
   std::vector<CurveCriticalPoints> critical_points;   ///< of a pair for several directions, or none
   std::vector<AbsenceCertificate> absence_certificates;
   std::vector<GraphCertificate> graph_certificates;
@@ -205,13 +215,18 @@ struct SurfaceOptions {
   double max_seconds = 60;  ///< CPU seconds
   int max_bits = 848;       ///< precision cap of the MPFR rung
   int start_bits = 53;      ///< 53: doubles first; more: MPFR from there
+  /// A curve along which surfaces are singular or touch is left in cells of this part of the
+  /// region's size: Degenerate. (A single such point in far smaller ones.)
+  double singular_width = 0x1p-6;
+  double perturbation = 0;  ///< delta > 0 perturbs every coefficient
+  std::uint64_t seed = 1;
   /// As EncaseOptions'.
   std::function<bool(const char* stage, double done)> progress;
 };
 
 /// Encases the surfaces in the region. BadInput for a zero or constant polynomial or a degree above
-/// kMaxDegree, or an expression without variables; every other input gets an answer, of the three
-/// kinds of `Outcome`. Deterministic. See docs/surfaces.md.
+/// kMaxDegree, for an expression without variables or one to be perturbed; every other input gets
+/// an answer, of the three kinds of `Outcome`. Deterministic. See docs/surfaces.md.
 Result<SurfaceEncasement> encase(const std::vector<NamedSurface>& surfaces,
                                  const Polyhedron& region, const SurfaceOptions& options = {});
 

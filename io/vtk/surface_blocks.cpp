@@ -244,7 +244,13 @@ vtkPolyData* fill_unresolved(const SurfaceScene& scene, VtkTable* table) {
   for (const auto* places : {&e.degenerate, &e.undecided})
     for (const UnresolvedInSpace& place : *places) {
       if (!place.has_box) continue;
-      for (const auto& side : sides_of(place.box)) {
+      // The cells that are not certified because of it, rather than one box around a long curve.
+      std::vector<std::vector<Point<3>>> sides;
+      for (const int cell : place.cells)
+        for (const auto& side : sides_of(e.cells[cell].box)) sides.push_back(side);
+      if (sides.empty())
+        for (const auto& side : sides_of(place.box)) sides.push_back(side);
+      for (const auto& side : sides) {
         table->polygon(side);
         id->InsertNextValue(count);
         kind->InsertNextValue(static_cast<int>(place.kind));

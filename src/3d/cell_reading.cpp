@@ -82,6 +82,32 @@ std::optional<CutHint> cut_through(const std::vector<BoundaryLoop>& loops,
   return hint;
 }
 
+/// Where to cut a cell in which a closed sphere is not alone: between the poles of two spheres, at
+/// the widest gap, or through a sphere's pole. (A plane through the pole is made of field lines, so
+/// it is transversal to the sphere and cuts it into two discs.)
+CutHint cut_by_poles(const std::vector<RationalPoint<3>>& poles, const Box<3>& box) {
+  CutHint hint;
+  double widest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> places;
+    for (const RationalPoint<3>& pole : poles)
+      places.push_back(nearest_double(pole[static_cast<std::size_t>(axis)]));
+    std::sort(places.begin(), places.end());
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+      const double gap = places[k + 1] - places[k];
+      if (!(gap > widest)) continue;
+      widest = gap;
+      hint = {axis, places[k] + 0.25 * gap, places[k + 1] - 0.25 * gap};
+    }
+  }
+  if (widest > 0x1p-10 * box.largest_width()) return hint;
+  for (int axis = 1; axis < 3; ++axis)
+    if (box.width(axis) > box.width(hint.axis)) hint.axis = axis;
+  const double at = nearest_double(poles.front()[static_cast<std::size_t>(hint.axis)]);
+  const double reach = 0x1p-10 * box.width(hint.axis);
+  return {hint.axis, at - reach, at + reach};
+}
+
 class CellReader {
  public:
   CellReader(const ReadingScene& scene, int cell, const SpacePartition::Leaf& leaf,
@@ -90,6 +116,7 @@ class CellReader {
 
   Reading run() {
     std::vector<BoundaryLoop> all_loops;
+    std::vector<RationalPoint<3>> poles;  // of closed spheres
     Reading reading;
     for (const int index : leaf_.graphs) {
       const GraphCertificate& graph = scene_.graphs[static_cast<std::size_t>(index)];
@@ -108,11 +135,18 @@ class CellReader {
       if (is_sphere) {
         reading.patches.push_back({graph.surface, {}});
         all_loops.emplace_back();
+        poles.push_back(FieldLines(graph).pole());
       }
       for (BoundaryLoop& loop : *loops) {
         reading.patches.push_back({graph.surface, loop.edges});
         all_loops.push_back(std::move(loop));
       }
+    }
+    if (!poles.empty() && reading.patches.size() > 1) {
+      Reading result = failed(Reading::Kind::Ambiguous,
+                              "a closed sphere shares its cell with another piece of a surface");
+      result.hint = cut_by_poles(poles, leaf_.box);
+      return result;
     }
     match_arcs({scene_, leaf_, boundary_, all_loops}, &reading);
     return reading;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
 #include <utility>
 
+#include "3d/segment_crossings.hpp"
 #include "common/box_tests.hpp"
 #include "common/expression_program.hpp"
 #include "encase/space_arrangement.hpp"
@@ -55,6 +59,7 @@ struct RegionLocator::Tables {
   std::vector<FilteredFunction<3>> surfaces;
   std::vector<std::array<Rational, 4>> planes;
   std::vector<std::vector<int>> regions_of_cell;
+  std::set<std::array<int, 3>> borders;  ///< a surface, and two regions with a face of it between
 
   Tables(const SurfaceEncasement& encasement, const SpaceArrangement& a)
       : e(encasement), arrangement(a), regions_of_cell(encasement.cells.size()) {
@@ -63,6 +68,9 @@ struct RegionLocator::Tables {
     for (std::size_t r = 0; r < a.regions.size(); ++r)
       for (const int cell : a.regions[r].cells)
         regions_of_cell[cell].push_back(static_cast<int>(r));
+    for (const SpaceArrangement::Face& face : a.faces)
+      borders.insert({face.surface, std::min(face.regions[0], face.regions[1]),
+                      std::max(face.regions[0], face.regions[1])});
   }
 
   bool outside(const RationalPoint<3>& point) const {
@@ -80,19 +88,57 @@ struct RegionLocator::Tables {
     return ~at;
   }
 
-  /// Goes straight from a point to a point of a facet of its cell: the region there, if no surface
-  /// lies between; else -1.
-  int region_beyond(const RationalPoint<3>& point, int cell, int f,
-                    const RationalPoint<2>& on_facet, Kernel& kernel) const {
+  /// The region next to a point of a facet; -1 on a surface.
+  int region_at(int f, const RationalPoint<2>& on_facet) const {
     const Facet& facet = e.facets[f];
-    const RationalPoint<3> target = PlaneChart(planes[facet.plane]).lift(on_facet);
-    for (std::size_t s = 0; s < surfaces.size(); ++s)
-      if (e.cells[cell].signs[s] == Sign::Zero && !misses(surfaces[s], point, target, kernel))
-        return -1;
     if (facet.surfaces.empty()) return arrangement.region_of_facet[f][0];
     const auto feature = PointLocator(facet.encasement, facet.arrangement).locate(on_facet);
     if (feature.kind != Arrangement::Feature::Kind::Face) return -1;
     return arrangement.region_of_facet[f][feature.index];
+  }
+
+  /// Which surfaces a segment in a cell crosses, in order, if that can be told.
+  std::optional<std::vector<int>> crossed(int cell, const RationalPoint<3>& from,
+                                          const RationalPoint<3>& to, Kernel& kernel) const {
+    std::vector<int> met;
+    std::vector<const Function<3>*> functions;
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+      if (e.cells[cell].signs[s] != Sign::Zero || misses(surfaces[s], from, to, kernel)) continue;
+      met.push_back(static_cast<int>(s));
+      functions.push_back(&e.surfaces[s].function);
+    }
+    if (met.empty()) return met;
+    auto changes = sign_changes(functions, from, to);
+    if (!changes) return std::nullopt;
+    for (int& k : *changes) k = met[k];
+    return changes;
+  }
+
+  /// The regions of a cell that border on one of some regions across a surface.
+  std::vector<int> beyond(int cell, int surface, const std::vector<int>& regions) const {
+    std::vector<int> result;
+    for (const int r : regions_of_cell[cell])
+      if (std::any_of(regions.begin(), regions.end(), [&](int other) {
+            return borders.count({surface, std::min(r, other), std::max(r, other)}) == 1;
+          }))
+        result.push_back(r);
+    return result;
+  }
+
+  /// Goes straight from a point to a point of a facet of its cell, and back from the region there
+  /// across one surface after the other: the regions in which the point may lie. Nothing if the way
+  /// does not tell.
+  std::optional<std::vector<int>> regions_along(const RationalPoint<3>& point, int cell, int f,
+                                                const RationalPoint<2>& on_facet,
+                                                Kernel& kernel) const {
+    const RationalPoint<3> target = PlaneChart(planes[e.facets[f].plane]).lift(on_facet);
+    const auto way = crossed(cell, point, target, kernel);
+    if (!way) return std::nullopt;
+    const int last = region_at(f, on_facet);
+    if (last < 0) return std::nullopt;
+    std::vector<int> regions{last};
+    for (std::size_t k = way->size(); k-- > 0;) regions = beyond(cell, (*way)[k], regions);
+    return regions;
   }
 
   /// A point of a facet, another one for every k: first that straight along an axis from the given
@@ -126,12 +172,17 @@ struct RegionLocator::Tables {
     std::vector<int> candidates;
     for (const int region : regions_of_cell[cell])
       if (arrangement.regions[region].signs == signs) candidates.push_back(region);
-    if (candidates.size() == 1) return {Place::Kind::Region, candidates[0], {}};
+    // Every way leaves fewer of them.
     for (int k = 0; k < kTargets; ++k)
       for (const int f : e.cells[cell].facets) {
-        const int region = region_beyond(point, cell, f, target(point, f, k), kernel);
-        if (region >= 0) return {Place::Kind::Region, region, {}};
+        if (candidates.size() == 1) return {Place::Kind::Region, candidates[0], {}};
+        const auto regions = regions_along(point, cell, f, target(point, f, k), kernel);
+        if (!regions) continue;
+        std::erase_if(candidates, [&](int r) {
+          return std::find(regions->begin(), regions->end(), r) == regions->end();
+        });
       }
+    if (candidates.size() == 1) return {Place::Kind::Region, candidates[0], {}};
     return {};
   }
 

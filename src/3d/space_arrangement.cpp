@@ -116,14 +116,11 @@ class SpaceGluer {
     }
   }
 
-  /// Where a closed sphere is the only patch of its cell, the cell's whole boundary lies outside of
-  /// it. Where it is not, what lies around it is left open.
+  /// A closed sphere is the only patch of its cell: the cell's whole boundary lies outside of it.
   void join_around_sphere(int c, int p) {
     const SpaceCell& cell = e_.cells[c];
     if (cell.patches.size() > 1) {
-      open_ =
-          "a closed sphere shares its cell with another piece of a surface: which region is "
-          "around it is not told";
+      fault_ = "a closed sphere shares its cell with another piece of a surface";
       return;
     }
     const int surface = cell.patches[p].surface;

@@ -13,6 +13,7 @@
 #include "3d/graph_certificate.hpp"
 #include "3d/pair_certificate.hpp"
 #include "3d/region_sides.hpp"
+#include "3d/singular_places.hpp"
 #include "common/interval.hpp"
 #include "common/subdivision.hpp"
 
@@ -87,6 +88,8 @@ struct SpacePartition::State {
   int listed(const Item& item, std::size_t a, std::size_t b) const;
   bool triples_known(Item& item) const;
   bool certify(Item& item);
+  bool seems_singular(const Item& item) const;
+  void leave_rows(std::vector<Item>* open);
   void settle(Item& item, CellState state);
 
   double rounded_cut(const Box<3>& box, int axis, double at) const;
@@ -314,6 +317,54 @@ bool SpacePartition::State::certify(Item& item) {
   return find_pairs(item, graphs_found) && graphs_found && triples_known(item);
 }
 
+/// Whether what is not certified in an open leaf seems to be so because surfaces are not in general
+/// position there.
+bool SpacePartition::State::seems_singular(const Item& item) const {
+  const Box<3>& box = leaves[static_cast<std::size_t>(item.leaf)].box;
+  const auto f = [&](std::size_t a) {
+    return &scene.surfaces[static_cast<std::size_t>(item.alive[a])];
+  };
+  const std::size_t n = item.size();
+  for (std::size_t a = 0; a < n; ++a)
+    if (item.graph[a] < 0 && seem_singular({f(a)}, box)) return true;
+  bool all_pairs = true;
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = a + 1; b < n; ++b) {
+      if (item.pair[a * n + b] >= 0) continue;
+      all_pairs = false;
+      if (seem_singular({f(a), f(b)}, box)) return true;
+    }
+  for (std::size_t a = 0; a < n && all_pairs; ++a)
+    for (std::size_t b = a + 1; b < n; ++b)
+      for (std::size_t c = b + 1; c < n; ++c)
+        if (seem_singular({f(a), f(b), f(c)}, box)) return true;
+  return false;
+}
+
+/// Leaves the small boxes that lie in rows along which surfaces seem to be singular: to go on would
+/// double their number again and again.
+void SpacePartition::State::leave_rows(std::vector<Item>* open) {
+  std::vector<std::size_t> places;
+  std::vector<Box<3>> boxes;
+  for (std::size_t k = 0; k < open->size() && !stopped; ++k) {
+    const Box<3>& box = leaves[static_cast<std::size_t>((*open)[k].leaf)].box;
+    if (box.largest_width() > limits.singular_width * root.largest_width() ||
+        !seems_singular((*open)[k]))
+      continue;
+    places.push_back(k);
+    boxes.push_back(box);
+  }
+  const std::vector<bool> left = in_rows(boxes);
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (!left[k]) continue;
+    Item& item = (*open)[places[k]];
+    leaves[static_cast<std::size_t>(item.leaf)].in_row = true;
+    settle(item, CellState::Undecided);
+    item.leaf = -1;
+  }
+  std::erase_if(*open, [](const Item& item) { return item.leaf < 0; });
+}
+
 void SpacePartition::State::settle(Item& item, CellState state) {
   Leaf& leaf = leaves[static_cast<std::size_t>(item.leaf)];
   leaf.state = state;
@@ -519,18 +570,20 @@ bool SpacePartition::State::halve(Item& item, std::vector<Item>* parts) {
 }
 
 void SpacePartition::State::run(std::vector<Item> level) {
-  std::vector<Item> next;
   while (!level.empty()) {
+    std::vector<Item> open, next;
     for (Item& item : level) {
       if (++visited % 16 == 0 && !stopped) stopped = limits.stop && limits.stop();
       if (!stopped && certify(item))
         settle(item, CellState::Certified);
-      else if (stopped || static_cast<int>(leaves.size()) >= limits.max_leaves ||
-               !halve(item, &next))
-        settle(item, CellState::Undecided);
+      else
+        open.push_back(std::move(item));
     }
+    leave_rows(&open);
+    for (Item& item : open)
+      if (stopped || static_cast<int>(leaves.size()) >= limits.max_leaves || !halve(item, &next))
+        settle(item, CellState::Undecided);
     level.swap(next);
-    next.clear();
   }
 }
 
@@ -551,6 +604,7 @@ void SpacePartition::certify() {
 bool SpacePartition::split(int leaf, const std::optional<CutHint>& hint) {
   std::vector<Item> parts;
   parts.push_back(state_->item_of(leaf));
+  for (std::size_t a = 0; a < parts[0].size(); ++a) state_->sharpen(parts[0], a);
   const std::optional<double> at =
       hint ? state_->choose_cut(parts[0], *hint) : std::optional<double>();
   if (at) {

@@ -27,6 +27,8 @@ struct PartitionLimits {
   /// Asked now and then; true ends the work, and what is open becomes Undecided.
   std::function<bool()> stop;
   double smallest = 0x1p-36;  ///< leaves are split down to this part of the region's size
+  /// And those in a row along which surfaces seem to be singular only down to this part.
+  double singular_width = 0x1p-6;
 };
 
 /// Where a leaf had better be cut: between two values of a coordinate.
@@ -48,6 +50,7 @@ class SpacePartition {
     Box<3> box;                              ///< the leaf is its part of the region; not empty
     int depth = 0;                           ///< number of splits above it
     CellState state = CellState::Undecided;  ///< Certified or Undecided
+    bool in_row = false;                     ///< Undecided, and left as one of a row
     std::vector<Sign> signs;                 ///< of every surface; Zero: it may meet the leaf
     std::vector<int> absences;       ///< in `absences()`, one for every sign that is not Zero
     std::vector<int> graphs;         ///< in `graphs()`, one for every sign that is Zero

@@ -16,7 +16,8 @@ Result<SurfaceEncasement> encase(const std::vector<NamedSurface>& surfaces,
                  "std::fesetround(FE_TONEAREST)"};
   SurfaceEncaser run(surfaces, region, options);
 
-  // 1. Sanity: refuse what is no surface; take repeated and shared components apart.
+  // 1. Sanity: refuse what is no surface; perturb on demand; take repeated and shared components
+  //    apart.
   if (const Status bad = run.check_input()) return *bad;
   run.separate_components();
 

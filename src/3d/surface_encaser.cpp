@@ -8,19 +8,15 @@
 
 #include "3d/arc_direction.hpp"
 #include "3d/edge_lines.hpp"
+#include "3d/pair_certificate.hpp"
 #include "3d/pair_critical_points.hpp"
 #include "3d/solid_region.hpp"
+#include "3d/solid_sides.hpp"
 #include "common/isolate_roots.hpp"
 
 namespace encase {
 
 namespace {
-
-std::string decimal(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
 
 /// Directions that nobody has reason to put curves at right angles to.
 Point<3> generic_direction(int number) {
@@ -45,12 +41,20 @@ std::optional<Sign> side(const HalfSpace& half_space, const Box<3>& box) {
 
 }  // namespace
 
+std::string SurfaceEncaser::decimal(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
 SurfaceEncaser::SurfaceEncaser(const std::vector<NamedSurface>& input, const Polyhedron& region,
                                const SurfaceOptions& options)
     : options_(options) {
   kernel_.start_bits = std::max(options.start_bits, Kernel::kDoubleBits);
   kernel_.max_bits = std::max(options.max_bits, kernel_.start_bits);
   result_.input = input;
+  result_.perturbation = options.perturbation;
+  result_.seed = options.seed;
   result_.region = region;
 }
 
@@ -91,7 +95,24 @@ void SurfaceEncaser::use_region(int attempt) {
   result_.undecided.clear();
 }
 
+/// Two surfaces that a combination of their functions proves to be apart in the whole region have
+/// no points in common, and no cell asks for a list of any.
+void SurfaceEncaser::find_apart_pairs() {
+  const Box<3> box = region_.polyhedron.bounding_box();
+  apart_.clear();
+  for (std::size_t f = 0; f < surfaces_.size(); ++f)
+    for (std::size_t g = f + 1; g < surfaces_.size(); ++g) {
+      const int degree = std::max(surfaces_[f].degree(), surfaces_[g].degree());
+      Bernstein<3> nets[2];
+      surfaces_[f].expand(box, degree, kernel_.start_bits, kernel_, &nets[0]);
+      surfaces_[g].expand(box, degree, kernel_.start_bits, kernel_, &nets[1]);
+      if (find_apart(nets[0], nets[1], box, surfaces_[f].scale(), surfaces_[g].scale()))
+        apart_.insert({static_cast<int>(f), static_cast<int>(g)});
+    }
+}
+
 bool SurfaceEncaser::isolate_triple_points() {
+  find_apart_pairs();
   result_.triple_points.clear();
   result_.triple_point_covers.clear();
   inside_.clear();
@@ -101,6 +122,7 @@ bool SurfaceEncaser::isolate_triple_points() {
   for (int f = 0; f < n; ++f)
     for (int g = f + 1; g < n; ++g)
       for (int h = g + 1; h < n; ++h) {
+        if (apart_.count({f, g}) + apart_.count({f, h}) + apart_.count({g, h}) > 0) continue;
         const auto at = [&](int s) { return &surfaces_[static_cast<std::size_t>(s)]; };
         RootIsolation<3> roots = isolate_roots<3>({at(f), at(g), at(h)}, box, sides_,
                                                   limits("isolating triple points"), kernel_);
@@ -114,6 +136,9 @@ bool SurfaceEncaser::add_triple_points(RootIsolation<3> roots, const std::array<
   result_.statistics.point_boxes += roots.boxes;
   const int first = static_cast<int>(result_.triple_points.size());
   bool is_generic = true;
+  std::array<const Function<3>*, 3> functions;
+  for (std::size_t i = 0; i < 3; ++i)
+    functions[i] = &result_.surfaces[static_cast<std::size_t>(surfaces[i])].function;
   for (std::size_t k = 0; k < roots.roots.size(); ++k) {
     TriplePoint point;
     point.surfaces = surfaces;
@@ -127,6 +152,8 @@ bool SurfaceEncaser::add_triple_points(RootIsolation<3> roots, const std::array<
       outside = outside || at == Sign::Positive;
     }
     is_generic = is_generic && (inside || outside);
+    point.location = location_of(functions, point.rounded ? neighbours_of(point.point) : point.box,
+                                 point.point, result_.region);
     inside_.push_back(inside ? 1 : 0);
     result_.triple_points.push_back(point);
   }
@@ -183,7 +210,7 @@ void SurfaceEncaser::isolate_critical_points() {
 
 /// Whether another direction may serve where this one does not.
 bool SurfaceEncaser::isolate_critical_points(int f, int g, const Point<3>& w) {
-  if (gradients_are_parallel(f, g)) return false;
+  if (apart_.count({f, g}) > 0 || gradients_are_parallel(f, g)) return false;
   auto found = pair_critical_points(
       surfaces_[static_cast<std::size_t>(f)], surfaces_[static_cast<std::size_t>(g)], w,
       region_.polyhedron.bounding_box(), sides_, limits("isolating critical points"), kernel_);
@@ -204,6 +231,7 @@ void SurfaceEncaser::partition() {
                               result_.triple_point_covers, result_.critical_points});
   PartitionLimits limits;
   limits.max_leaves = options_.max_cells;
+  limits.singular_width = options_.singular_width;
   limits.stop = [this] { return stop("splitting cells"); };
   partition_ = std::make_unique<SpacePartition>(*scene_, limits, kernel_);
   partition_->certify();

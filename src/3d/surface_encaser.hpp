@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +27,7 @@ class SurfaceEncaser {
                  const SurfaceOptions& options);
 
   Status check_input() const;      // 1. sanity
-  void separate_components();      // 1. shared and repeated components
+  void separate_components();      // 1. perturbation; shared and repeated components
   void use_region(int attempt);    // 2. the region, or a slightly larger one
   bool isolate_triple_points();    // 3. common points of three surfaces
   void isolate_critical_points();  // 3. and where curves turn back
@@ -36,6 +37,7 @@ class SurfaceEncaser {
   SurfaceEncasement take_result() { return std::move(result_); }
 
  private:
+  static std::string decimal(double x);
   bool out_of_budget();
   bool stop(const char* stage);
   SubdivisionLimits limits(const char* stage);
@@ -45,6 +47,7 @@ class SurfaceEncaser {
   void add_unresolved(UnresolvedInSpace entry);
   void report_boxes(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,
                     const std::string& diagnosis);
+  void find_apart_pairs();
   bool add_triple_points(RootIsolation<3> roots, const std::array<int, 3>& surfaces);
   bool isolate_critical_points(int f, int g, const Point<3>& w);
   bool gradients_are_parallel(int f, int g) const;
@@ -63,7 +66,13 @@ class SurfaceEncaser {
   };
   Diagnosis diagnose(int cell) const;
   UnresolvedInSpace why_not_certified(int cell) const;
+  /// A cell that is not certified.
+  struct OpenCell {
+    int cell;
+    UnresolvedInSpace why;
+  };
   void report_cells();
+  void report_places(const std::vector<OpenCell>& open);
   void take_cells();
 
   /// What became of a leaf.
@@ -84,8 +93,9 @@ class SurfaceEncaser {
   std::vector<FilteredFunction<3>> directions_;  ///< of the lists of critical points
   SolidRegion region_;
   std::vector<Plane> sides_;
-  std::vector<char> inside_;  ///< whether a triple point lies in the region used
-  std::size_t notes_ = 0;     ///< entries of `degenerate` that do not depend on the region used
+  std::set<std::array<int, 2>> apart_;  ///< pairs without common points in the region
+  std::vector<char> inside_;            ///< whether a triple point lies in the region used
+  std::size_t notes_ = 0;  ///< entries of `degenerate` that do not depend on the region used
   std::unique_ptr<SpaceScene> scene_;
   std::unique_ptr<SpacePartition> partition_;
   std::unique_ptr<FacetEncaser> encaser_;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <random>
 
 #include "3d/surface_encaser.hpp"
 #include "common/components.hpp"
 #include "common/filtered_inclusion.hpp"
+#include "common/perturb.hpp"
 
 namespace encase {
 
@@ -41,10 +44,23 @@ Status SurfaceEncaser::check_input() const {
   if (result_.region.corners.size() < 4) return bad_input("the region is no polyhedron");
   for (const NamedSurface& surface : result_.input)
     if (Status bad = check(surface, result_.region.bounding_box())) return bad;
+  if (!(result_.perturbation >= 0) || !std::isfinite(result_.perturbation))
+    return bad_input("the perturbation must be a number that is not negative");
+  for (const NamedSurface& surface : result_.input)
+    if (result_.perturbation > 0 && !surface.function.is_polynomial())
+      return bad_input("surface '" + surface.name +
+                       "' is no polynomial: only those can be perturbed");
+  if (!(options_.singular_width > 0))
+    return bad_input("the width of cells along singular curves must be positive");
   return std::nullopt;
 }
 
 void SurfaceEncaser::separate_components() {
+  if (result_.perturbation > 0) {
+    std::mt19937_64 generator(result_.seed);
+    for (NamedSurface& surface : result_.input)
+      surface.function = perturb(surface.function.polynomial(), result_.perturbation, generator);
+  }
   separate_polynomials();
   separate_others();
   for (const Surface& surface : result_.surfaces) surfaces_.emplace_back(surface.function);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "3d/box_clusters.hpp"
 #include "3d/surface_encaser.hpp"
@@ -114,7 +116,8 @@ UnresolvedInSpace SurfaceEncaser::why_not_certified(int index) const {
   }
   Diagnosis diagnosis = diagnose(index);
   const double size = region_.polyhedron.bounding_box().largest_width();
-  const bool at_cap = leaf.box.largest_width() <= 2 * PartitionLimits().smallest * size;
+  const bool at_cap =
+      leaf.in_row || leaf.box.largest_width() <= 2 * PartitionLimits().smallest * size;
   entry.surfaces = std::move(diagnosis.surfaces);
   entry.kind = at_cap ? diagnosis.kind : Unresolved::Kind::Budget;
   entry.reason = at_cap ? diagnosis.reason
@@ -124,25 +127,37 @@ UnresolvedInSpace SurfaceEncaser::why_not_certified(int index) const {
   return entry;
 }
 
-/// Reports what resists; cells that touch are one place. Of these, what is undecided tells the
-/// reason, else what has no certificates, else what has a facet that failed.
+/// Reports what resists; cells that touch are one place, those in rows with the same diagnosis.
 void SurfaceEncaser::report_cells() {
-  std::vector<UnresolvedInSpace> entries;
-  std::vector<std::size_t> cell_of;
-  std::vector<Box<3>> boxes;
+  std::vector<OpenCell> singles;
+  std::map<std::pair<Unresolved::Kind, std::vector<int>>, std::vector<OpenCell>> rows;
   for (std::size_t k = 0; k < result_.cells.size(); ++k) {
     if (result_.cells[k].state == CellState::Certified) continue;
-    entries.push_back(why_not_certified(static_cast<int>(k)));
-    cell_of.push_back(k);
-    boxes.push_back(entries.back().box);
+    const int cell = static_cast<int>(k);
+    UnresolvedInSpace entry = why_not_certified(cell);
+    if (partition_->leaves()[k].in_row) {
+      auto& row = rows[{entry.kind, entry.surfaces}];
+      row.push_back({cell, std::move(entry)});
+    } else {
+      singles.push_back({cell, std::move(entry)});
+    }
   }
+  for (const auto& [diagnosis, row] : rows) report_places(row);
+  report_places(singles);
+}
+
+/// One entry for all that touch. Of these, what is undecided tells the reason, else what has no
+/// certificates, else what has a facet that failed.
+void SurfaceEncaser::report_places(const std::vector<OpenCell>& open) {
+  std::vector<Box<3>> boxes;
+  for (const OpenCell& cell : open) boxes.push_back(cell.why.box);
   const auto weight = [&](std::size_t i) {
-    return (entries[i].kind == Unresolved::Kind::Budget ? 2 : 0) +
-           (cells_[cell_of[i]].trouble ? 0 : 1);
+    return (open[i].why.kind == Unresolved::Kind::Budget ? 2 : 0) +
+           (cells_[static_cast<std::size_t>(open[i].cell)].trouble ? 0 : 1);
   };
   const std::vector<int> cluster = clusters_of(boxes);
   std::vector<std::vector<std::size_t>> members;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
+  for (std::size_t i = 0; i < open.size(); ++i) {
     const auto c = static_cast<std::size_t>(cluster[i]);
     if (c == members.size()) members.emplace_back();
     members[c].push_back(i);
@@ -151,14 +166,20 @@ void SurfaceEncaser::report_cells() {
     const std::size_t first =
         *std::max_element(place.begin(), place.end(),
                           [&](std::size_t i, std::size_t j) { return weight(i) < weight(j); });
-    UnresolvedInSpace entry = entries[first];
+    UnresolvedInSpace entry = open[first].why;
     std::set<int> surfaces;
+    double widest = 0;
     for (const std::size_t i : place) {
       entry.box = hull(entry.box, boxes[i]);
-      surfaces.insert(entries[i].surfaces.begin(), entries[i].surfaces.end());
+      entry.cells.push_back(open[i].cell);
+      widest = std::max(widest, boxes[i].largest_width());
+      surfaces.insert(open[i].why.surfaces.begin(), open[i].why.surfaces.end());
       if (entry.kind != Unresolved::Kind::Budget)
-        result_.cells[cell_of[i]].state = CellState::Degenerate;
+        result_.cells[static_cast<std::size_t>(open[i].cell)].state = CellState::Degenerate;
     }
+    if (partition_->leaves()[static_cast<std::size_t>(entry.cells.front())].in_row)
+      entry.reason += " along a curve, which is left in " + std::to_string(place.size()) +
+                      " cells at most " + decimal(widest) + " wide";
     entry.surfaces.assign(surfaces.begin(), surfaces.end());
     add_unresolved(std::move(entry));
   }

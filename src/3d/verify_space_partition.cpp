@@ -4,6 +4,7 @@
 
 #include "3d/arc_direction.hpp"
 #include "3d/certificate_tests.hpp"
+#include "3d/solid_sides.hpp"
 #include "3d/verify_isolation.hpp"
 #include "3d/verify_space_claims.hpp"
 #include "common/subdivision.hpp"
@@ -237,6 +238,17 @@ bool inside(const SpaceClaims& claims, const Box<3>& box, std::size_t cell) {
                      [&](const HalfSpace& side) { return range(side, box)[1] < 0; });
 }
 
+void check_location(SpaceClaims& claims, std::size_t k) {
+  const TriplePoint& point = claims.result.triple_points[k];
+  std::array<const Function<3>*, 3> functions;
+  for (std::size_t i = 0; i < 3; ++i)
+    functions[i] = &claims.result.surfaces[static_cast<std::size_t>(point.surfaces[i])].function;
+  claims.require(point.location ==
+                     location_of(functions, point.rounded ? neighbours_of(point.point) : point.box,
+                                 point.point, claims.result.region),
+                 "The location of triple point ", k, " in the region is not proved.");
+}
+
 void check_triple_points(SpaceClaims& claims) {
   const SurfaceEncasement& e = claims.result;
   std::map<std::array<int, 3>, std::vector<int>> points;
@@ -262,8 +274,10 @@ void check_triple_points(SpaceClaims& claims) {
     }
     if (!claims.require(own, "Triple point cover ", k, " names points of other surfaces."))
       continue;
-    for (const int point : mine)
+    for (const int point : mine) {
       isolation.roots.push_back(e.triple_points[static_cast<std::size_t>(point)].box);
+      isolation.rounded.push_back(e.triple_points[static_cast<std::size_t>(point)].rounded);
+    }
     const auto [f, g, h] = cover.surfaces;
     check_isolation(claims, "Triple point cover " + std::to_string(k),
                     {&claims.surface(f), &claims.surface(g), &claims.surface(h)},
@@ -272,7 +286,9 @@ void check_triple_points(SpaceClaims& claims) {
   for (std::size_t k = 0; k < e.triple_points.size() && !claims.full(); ++k) {
     const TriplePoint& point = e.triple_points[k];
     claims.require(covers.count(point.surfaces) == 1, "Triple point ", k, " has no cover.");
-    claims.require(point.box.contains(point.point), "Triple point ", k, " is not in its box.");
+    claims.require(point.point == point.box.center(), "Triple point ", k,
+                   " is not the centre of its box.");
+    check_location(claims, k);
     if (point.cell >= 0) {
       claims.require(inside(claims, point.box, static_cast<std::size_t>(point.cell)),
                      "Triple point ", k, " is not in the interior of its cell.");

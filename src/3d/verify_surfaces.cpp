@@ -214,6 +214,8 @@ void check_entry_structure(SpaceClaims& claims) {
                                                          : all_in_range(u.surfaces, e.surfaces)),
                      name, " entry ", k, " does not name ascending indices of surfaces.");
       claims.require(!u.has_box || ordered(u.box), name, " entry ", k, " has a bad box.");
+      claims.require(ascending(u.cells) && all_in_range(u.cells, e.cells), name, " entry ", k,
+                     " does not name ascending indices of cells.");
     }
 }
 
@@ -315,6 +317,20 @@ void check_components(SpaceClaims& claims, const std::set<int>& repeated) {
                  "The input surfaces with shared components are not those reported.");
 }
 
+/// Every cell that is not certified is named by one entry, in the list of its state.
+void check_open_cells(SpaceClaims& claims) {
+  const SurfaceEncasement& e = claims.result;
+  std::vector<int> degenerate(e.cells.size(), 0), undecided(e.cells.size(), 0);
+  for (const UnresolvedInSpace& u : e.degenerate)
+    for (const int cell : u.cells) ++degenerate[static_cast<std::size_t>(cell)];
+  for (const UnresolvedInSpace& u : e.undecided)
+    for (const int cell : u.cells) ++undecided[static_cast<std::size_t>(cell)];
+  for (std::size_t k = 0; k < e.cells.size(); ++k)
+    claims.require(degenerate[k] == (e.cells[k].state == CellState::Degenerate ? 1 : 0) &&
+                       undecided[k] == (e.cells[k].state == CellState::Undecided ? 1 : 0),
+                   "Cell ", k, " is not named by one entry of what its state says.");
+}
+
 }  // namespace
 
 void check_surfaces(SpaceClaims& claims) {
@@ -337,6 +353,7 @@ Verification verify(const SurfaceEncasement& encasement, const VerifyOptions& op
 
   // What everything refers to: the surfaces, the region, its partition.
   check_outcome(claims, encasement);
+  check_open_cells(claims);
   check_surfaces(claims);
   if (!check_space_regions(claims) || !replay_space_history(claims)) return claims.report;
 

@@ -61,22 +61,6 @@ TEST(KnownSurfaces, ATorusWithTwoHolesHasCharacteristicMinusTwo) {
   EXPECT_EQ(shape.boundary_loops, 0);
 }
 
-/// Surfaces with singular curves: what is singular is reported within the budget, and the rest is
-/// certified.
-TEST(KnownSurfaces, SingularCurvesAreReportedWithinTheBudget) {
-  SurfaceOptions options;
-  options.max_cells = 2000;
-  for (const char* name : {"steiner_roman", "hunt"}) {
-    const SurfaceEncasement e = encased(from_file(name), options);
-    EXPECT_NE(e.outcome, Outcome::Certified) << name;
-    EXPECT_FALSE(e.degenerate.empty() && e.undecided.empty()) << name;
-    std::size_t certified = 0;
-    for (const SpaceCell& cell : e.cells) certified += cell.state == CellState::Certified;
-    EXPECT_GT(certified, e.cells.size() / 4) << name;
-    EXPECT_LE(e.cells.size(), 2000u) << name;
-  }
-}
-
 TEST(KnownSurfaces, ATorusAndFourSpheresAreDivided) {
   const SurfaceEncasement e = encased(from_file("torus_2spheres"));
   EXPECT_EQ(e.outcome, Outcome::Certified);

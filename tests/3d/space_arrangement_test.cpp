@@ -101,18 +101,32 @@ TEST_P(SpaceScenes, AgreeWithAFloodFill) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, SpaceScenes,
-    testing::Values(Scene{"sphere", {kSphere}, "2", 2}, Scene{"torus", {kTorus}, "4", 2},
-                    Scene{"two_spheres", {kSphere, "(x-1)^2+y^2+z^2-1"}, "3", 4},
-                    Scene{"sphere_and_torus", {"x^2+y^2+(z-1/2)^2-4", kTorus}, "4", 0},
-                    Scene{"bubble_between_planes",
-                          {"x-1/100", "y-1/50", "(x+1/7)^2+(y+1/9)^2+z^2-1/2"},
-                          "2",
-                          8},
-                    Scene{"four_spheres",
-                          {kSphere, "(x-1)^2+y^2+z^2-1", "(x-1/2)^2+(y-4/5)^2+z^2-1",
-                           "(x-1/2)^2+(y-1/4)^2+(z-4/5)^2-1"},
-                          "3",
-                          16}),
+    testing::Values(
+        Scene{"sphere", {kSphere}, "2", 2}, Scene{"torus", {kTorus}, "4", 2},
+        Scene{"two_spheres", {kSphere, "(x-1)^2+y^2+z^2-1"}, "3", 4},
+        Scene{"sphere_and_torus", {"x^2+y^2+(z-1/2)^2-4", kTorus}, "4", 0},
+        Scene{
+            "bubble_between_planes", {"x-1/100", "y-1/50", "(x+1/7)^2+(y+1/9)^2+z^2-1/2"}, "2", 8},
+        Scene{"three_concentric_spheres", {kSphere, "x^2+y^2+z^2-2", "x^2+y^2+z^2-3"}, "2", 4},
+        Scene{"sphere_in_a_sphere_beside_a_third",
+              {kSphere, "(x-1/4)^2+y^2+z^2-1/4", "(x-8/5)^2+(y-1/3)^2+z^2-1/9"},
+              "2",
+              4},
+        Scene{"torus_around_a_sphere", {kTorus, "x^2+y^2+z^2-1/2"}, "4", 3},
+        Scene{"spheres_beside_a_plane",
+              {"x^2+y^2+z^2-1/4", "(x-5/4)^2+y^2+z^2-1/4", "x+y/5+z/7+1"},
+              "2",
+              4},
+        Scene{"five_nested_spheres",
+              {"x^2+y^2+z^2-3", "(x-1/5)^2+y^2+z^2-2", "(x-1/3)^2+(y+1/4)^2+z^2-1",
+               "(x-1/2)^2+(y+1/4)^2+(z-1/5)^2-2/5", "(x-1/2)^2+(y+1/3)^2+(z-1/5)^2-1/9"},
+              "2",
+              6},
+        Scene{"four_spheres",
+              {kSphere, "(x-1)^2+y^2+z^2-1", "(x-1/2)^2+(y-4/5)^2+z^2-1",
+               "(x-1/2)^2+(y-1/4)^2+(z-4/5)^2-1"},
+              "3",
+              16}),
     [](const auto& scene) { return scene.param.name; });
 
 /// Random surfaces have regions, and necks of regions, thinner than the grid: those of degree 4 are
@@ -190,17 +204,73 @@ TEST(SpaceArrangement, ACurvedSheetMeetsARegionOfEqualSignsTwice) {
   EXPECT_EQ((count[{Sign::Negative, Sign::Negative}]), 1);
 }
 
-TEST(SpaceArrangement, ASphereInASphereIsLeftOpenOrRight) {
-  const auto e = encase({{"outer", written::polynomial<3>(kSphere)},
-                         {"inner", written::polynomial<3>("x^2+y^2+z^2-1/2")}},
-                        make_box({-2, -2, -2}, {2, 2, 2}).value());
-  ASSERT_TRUE(e);
-  ASSERT_EQ(e.value().outcome, Outcome::Certified);
-  const auto arrangement = arrange(e.value());
-  if (arrangement)
-    EXPECT_EQ(arrangement.value().regions.size(), 3u);
-  else
-    EXPECT_EQ(arrangement.error().code, Error::Code::Undecided);
+/// A closed sphere is alone in its cell: that it shares none is proved again by `verify`.
+TEST(SpaceArrangement, ClosedSpheresInOneCellAreTakenApart) {
+  const Arranged a = arranged({kSphere, "x^2+y^2+z^2-2", "(x-3)^2+y^2+z^2-1"}, 5);
+  std::map<int, int> next_to;  // how many regions have so many neighbours
+  for (std::size_t r = 0; r < a.arrangement.regions.size(); ++r)
+    ++next_to[static_cast<int>(a.arrangement.neighbours(static_cast<int>(r)).size())];
+  EXPECT_EQ(next_to, (std::map<int, int>{{1, 2}, {2, 2}}));
+  for (const SpaceCell& cell : a.encasement.cells)
+    for (const SurfacePatch& patch : cell.patches)
+      EXPECT_TRUE(!patch.loop.empty() || cell.patches.size() == 1);
+  const Verification proof = verify(a.encasement, a.arrangement);
+  EXPECT_TRUE(proof.ok()) << proof.objections.front();
+}
+
+/// Small spheres at random places, some within others, all of them closed: the region around a
+/// sphere is that around its smallest neighbour that holds it, which their centres tell.
+TEST(SpaceArrangement, OfRandomSmallSpheresIsATree) {
+  struct Sphere {
+    int x, y, z, r;  // in hundredths
+  };
+  for (const unsigned seed : {1u, 2u, 3u, 4u}) {
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> place(-90, 90), size(4, 60);
+    std::vector<Sphere> spheres;
+    std::vector<std::string> texts;
+    while (spheres.size() < 12) {
+      const Sphere s{place(random), place(random), place(random), size(random)};
+      if (std::max({std::abs(s.x), std::abs(s.y), std::abs(s.z)}) + s.r >= 100) continue;
+      const auto apart = [&](const Sphere& t) {
+        const int d =
+            (s.x - t.x) * (s.x - t.x) + (s.y - t.y) * (s.y - t.y) + (s.z - t.z) * (s.z - t.z);
+        return d > (s.r + t.r) * (s.r + t.r) || d < (s.r - t.r) * (s.r - t.r);
+      };
+      if (!std::all_of(spheres.begin(), spheres.end(), apart)) continue;
+      spheres.push_back(s);
+      const auto term = [](char axis, int at) {
+        return std::string("(100*") + axis + (at < 0 ? "+" : "-") + std::to_string(std::abs(at)) +
+               ")^2";
+      };
+      texts.push_back(term('x', s.x) + "+" + term('y', s.y) + "+" + term('z', s.z) + "-" +
+                      std::to_string(s.r * s.r));
+    }
+    const Arranged a = arranged(texts, 1);
+    ASSERT_EQ(a.arrangement.regions.size(), 13u);
+    ASSERT_EQ(a.arrangement.components.size(), 12u);
+    std::set<int> inner;
+    for (const auto& component : a.arrangement.components) {
+      EXPECT_TRUE(component.closed);
+      EXPECT_EQ(component.euler, 2);
+    }
+    for (const auto& face : a.arrangement.faces) {
+      const auto& inside = a.arrangement.regions[face.regions[0]];
+      const auto& outside = a.arrangement.regions[face.regions[1]];
+      inner.insert(face.regions[0]);
+      for (int t = 0; t < 12; ++t) {
+        const Sphere &s = spheres[face.surface], &other = spheres[t];
+        const int d = (s.x - other.x) * (s.x - other.x) + (s.y - other.y) * (s.y - other.y) +
+                      (s.z - other.z) * (s.z - other.z);
+        const bool holds = t != face.surface && d < other.r * other.r && other.r > s.r;
+        EXPECT_EQ(outside.signs[t] == Sign::Negative, holds);
+        EXPECT_EQ(inside.signs[t] == Sign::Negative, holds || t == face.surface);
+      }
+    }
+    EXPECT_EQ(inner.size(), 12u);
+    const Verification proof = verify(a.encasement, a.arrangement);
+    EXPECT_TRUE(proof.ok()) << proof.objections.front();
+  }
 }
 
 TEST(SpaceArrangement, PointsAreLocatedByTheirSigns) {

@@ -74,7 +74,7 @@ std::unique_ptr<Partitioned> partition(const std::vector<Polynomial<3>>& polynom
       for (int c = b + 1; c < n; ++c) {
         const auto points = isolate_roots<3>({at(a), at(b), at(c)}, box, {}, limits, p->kernel);
         for (const Box<3>& root : points.roots)
-          p->triple_points.push_back({{a, b, c}, root, root.center(), false, -1});
+          p->triple_points.push_back({{a, b, c}, root, root.center(), false, {}, -1});
         p->triple_covers.push_back({{a, b, c}, points.root_box, points.tokens});
       }
     }
