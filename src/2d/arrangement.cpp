@@ -236,6 +236,7 @@ class Builder {
     const int edge = add_edge(vertex_at(start, at.end), -1, backward ? start.right : start.left,
                               backward ? start.left : start.right);
     a_.edges[edge].curve = start.curve;
+    a_.edges[edge].strands.reserve(kFewStrands);
     while (true) {
       RawStrand& raw = strands_[at.strand];
       raw.along = 2 * edge + at.end;
@@ -330,6 +331,8 @@ class Builder {
   /// Faces in the order of their first pieces; until here half-edges named regions of parts.
   void make_faces() {
     std::vector<int> face_of(parts_.regions, -1);
+    std::vector<std::size_t> pieces_of(parts_.regions, 0);
+    for (const int region : parts_.region_of_piece) ++pieces_of[region];
     a_.outside = 0;
     a_.faces.emplace_back();
     a_.pieces = std::move(parts_.pieces);
@@ -337,7 +340,7 @@ class Builder {
       int& face = face_of[parts_.region_of_piece[k]];
       if (face < 0) {
         face = static_cast<int>(a_.faces.size());
-        a_.faces.emplace_back();
+        a_.faces.emplace_back().pieces.reserve(pieces_of[parts_.region_of_piece[k]]);
       }
       a_.pieces[k].face = face;
       a_.faces[face].pieces.push_back(static_cast<int>(k));
@@ -346,7 +349,8 @@ class Builder {
       h.face = h.face == kOutside ? a_.outside : face_of[h.face];
   }
 
-  static constexpr int kOutside = -2;  ///< in place of a region of parts
+  static constexpr int kOutside = -2;             ///< in place of a region of parts
+  static constexpr std::size_t kFewStrands = 4;  ///< that most edges have at most
 
   const Encasement& e_;
   CellParts parts_;

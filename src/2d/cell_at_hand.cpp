@@ -36,6 +36,7 @@ constexpr double kSliver = 0.045;  // for each halving of the distance to what i
 constexpr double kBalance = 0.05;
 constexpr double kTie = 1e-9;
 
+constexpr std::size_t kFewCurves = 2;  // the single branches of which are looked at in full
 constexpr int kMostGroups = 80;  // of marks, that are worth bits of their own
 
 // How much larger than the cell the box of its sketches may be: on average, and one side of it.
@@ -263,8 +264,11 @@ void CellAtHand::Branches::add(const Presence& p) {
   cells += expectations.for_branches(more, p.crossings);
 }
 
-CellAtHand::Branches CellAtHand::Branches::and_those(const Branches& other) const {
-  return {curves + other.curves, count + other.count, cells + other.cells};
+void CellAtHand::Branches::remove(const Presence& p) {
+  const int less = branches_of(p);
+  curves -= less > 0;
+  count -= less;
+  cells -= expectations.for_branches(less, p.crossings);
 }
 
 double CellAtHand::expected_cells(int crossings, const Branches& branches) {
@@ -296,33 +300,24 @@ double CellAtHand::score(double negative, double positive) const {
 }
 
 double CellAtHand::score() const {
-  return score(expected_cells(parts_[0]), expected_cells(parts_[1]));
+  return score(expected_cells(parts_[0].crossings, branches_[0]),
+               expected_cells(parts_[1].crossings, branches_[1]));
 }
 
-/// Begins to take the roots of one curve after the other into the score.
-double CellAtHand::begin_score() {
-  const std::size_t size = whole_.curves.size();
-  to_come_.resize(size + 1);
-  to_come_[size] = {};
-  for (std::size_t s = size; s-- > 0;) {
-    to_come_[s] = to_come_[s + 1];
-    for (int k = 0; k < 2; ++k) to_come_[s][k].add(parts_[k].curves[s]);
-  }
-  passed_ = {};
-  return score(expected_cells(parts_[0].crossings, to_come_[0][0]),
-               expected_cells(parts_[1].crossings, to_come_[0][1]));
+void CellAtHand::count_branches() {
+  branches_ = {};
+  for (int k = 0; k < 2; ++k)
+    for (const Presence& p : parts_[k].curves) branches_[k].add(p);
 }
 
-/// The next curve is the one of a slot, with so many roots on the line.
-double CellAtHand::continue_score(std::size_t slot, int roots) {
-  std::array<double, 2> cells;
+/// The curve of a slot has so many roots on the line.
+void CellAtHand::add_roots(std::size_t slot, int roots) {
   for (int k = 0; k < 2; ++k) {
     Presence& p = parts_[k].curves[slot];
+    branches_[k].remove(p);
     p.ends += roots;
-    passed_[k].add(p);
-    cells[k] = expected_cells(parts_[k].crossings, passed_[k].and_those(to_come_[slot + 1][k]));
+    branches_[k].add(p);
   }
-  return score(cells[0], cells[1]);
 }
 
 /// Whether the line cannot become better than the best. Counts only grow, so this may be asked
@@ -366,11 +361,13 @@ void CellAtHand::guess_division(const int* positive) {
   for (Part& part : parts_) part.curves.resize(whole_.curves.size());
   parts_[1].crossings = positive[0];
   parts_[0].crossings = whole_.crossings - positive[0];
+  branches_ = {};
   for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
     const Presence& all = whole_.curves[s];
     const int crossings = positive[1 + 2 * s], ends = positive[2 + 2 * s];
     parts_[1].curves[s] = {all.curve, ends, crossings};
     parts_[0].curves[s] = {all.curve, all.ends - ends, all.crossings - crossings};
+    for (int k = 0; k < 2; ++k) branches_[k].add(parts_[k].curves[s]);
   }
 }
 
@@ -403,21 +400,30 @@ void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& point
 
 /// The number of roots that a curve seems to have on a chord.
 int CellAtHand::guess_roots_of(int slot, const std::array<Point<2>, 2>& ends) {
-  if (const Sketch* f = sketch(slot)) return count_sign_changes(*f, ends[0], ends[1]);
-  TiledFunction& f = partition_.tiles().about(whole_.curves[slot].curve, bounds_);
-  return count_sign_changes(f, ends[0], ends[1]);
+  const int old = parts_[0].curves[slot].ends;
+  if (whole_.curves.size() > kFewCurves && whole_.curves[slot].ends == 2) {
+    // A branch, a short one as a rule: it goes where its crossings are, and nowhere else.
+    if (old == 1) return 1;
+    return parts_[old == 0 ? 0 : 1].curves[slot].crossings > 0 ? 2 : 0;
+  }
+  const Sketch* f = sketch(slot);
+  const int roots =
+      f ? count_sign_changes(*f, ends[0], ends[1])
+        : count_sign_changes(partition_.tiles().about(whole_.curves[slot].curve, bounds_), ends[0],
+                             ends[1]);
+  // A curve enters a cell as often as it leaves it.
+  return roots + (roots + old) % 2;
 }
 
 /// Adds the roots that the curves seem to have on a chord, and returns the score; stops once that
 /// reaches the limit.
 double CellAtHand::guess_roots(const std::array<Point<2>, 2>& ends, double limit) {
-  double reached = begin_score();
+  double reached = score();
   for (std::size_t s = 0; s < whole_.curves.size() && reached < limit; ++s) {
-    const int old = parts_[0].curves[s].ends;
-    int roots = guess_roots_of(static_cast<int>(s), ends);
-    // A curve enters a cell as often as it leaves it.
-    if ((roots + old) % 2 != 0) ++roots;
-    reached = continue_score(s, roots);
+    const int roots = guess_roots_of(static_cast<int>(s), ends);
+    if (roots == 0) continue;
+    add_roots(s, roots);
+    reached = score();
   }
   return reached;
 }
@@ -533,7 +539,6 @@ bool CellAtHand::add_new_crossings(const Line& line) {
   if (!(from.hi < to.lo)) std::swap(from, to);
   if (!(from.hi < to.lo)) return false;
   trial_.roots.clear();
-  begin_score();
   const bool may_end = std::any_of(cell_->zones.begin(), cell_->zones.end(),
                                    [&](int id) { return partition_.zones[id].crossable; });
   for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
@@ -541,12 +546,13 @@ bool CellAtHand::add_new_crossings(const Line& line) {
     if (!partition_.isolate_between(whole_.curves[s].curve, line, from, to, kMaxNodes,
                                     &trial_.roots))
       return false;
-    const double reached = continue_score(s, static_cast<int>(trial_.roots.size() - before));
+    const int roots = static_cast<int>(trial_.roots.size() - before);
+    if (roots > 0) add_roots(s, roots);
     // A curve enters a cell as often as it leaves it: a free check of all the above. (But it may
     // end where its function is not analytic.)
     for (const Part& part : parts_)
       if (part.curves[s].ends % 2 != 0 && !may_end) return false;
-    if (is_beaten(reached)) return false;
+    if (roots > 0 && is_beaten(score())) return false;
   }
   return true;
 }
@@ -555,7 +561,9 @@ bool CellAtHand::cuts_well(const Line& line) {
   double clearance = HUGE_VAL;
   if (!cross_boundary(line, &clearance) || !divide_crossings(line, &clearance)) return false;
   set_slivers(line, clearance);
-  return count_old_crossings(line) && !is_beaten(score()) && add_new_crossings(line);
+  if (!count_old_crossings(line)) return false;
+  count_branches();
+  return !is_beaten(score()) && add_new_crossings(line);
 }
 
 /// Proves what a line does, and keeps the cut if it is the best.

@@ -103,7 +103,7 @@ class CellAtHand {
     int count = 0;     ///< of branches
     double cells = 0;  ///< what they add to the cells to be expected
     void add(const Presence& presence);
-    Branches and_those(const Branches& other) const;
+    void remove(const Presence& presence);
   };
   struct InnerCrossing {
     Place place;
@@ -127,8 +127,8 @@ class CellAtHand {
   void mark();
   double score(double negative, double positive) const;
   double score() const;
-  double begin_score();
-  double continue_score(std::size_t slot, int roots);
+  void count_branches();
+  void add_roots(std::size_t slot, int roots);
   bool guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const;
   double divide_marks(const Line& line);
   void guess_division(const int* positive);
@@ -150,10 +150,7 @@ class CellAtHand {
   const OpenCell* cell_ = nullptr;
   Part whole_;
   std::array<Part, 2> parts_;
-  // While the roots of one curve after the other come into the score: the branches in either part
-  // of the curves that have been counted, and of the slots from each one on as they are without.
-  std::array<Branches, 2> passed_;
-  std::vector<std::array<Branches, 2>> to_come_;
+  std::array<Branches, 2> branches_;  // of all curves, in either part
   std::vector<int> slot_;  // of every curve, among those present; -1 for others
   std::vector<InnerCrossing> crossings_;
   // The vertices, the crossings and the points on the boundary; groups: all crossings, and of each

@@ -77,6 +77,9 @@ class Maker {
   bool sort_lines() {
     parts_.on_line.resize(e_.lines.size());
     rank_.resize(e_.line_crossings.size());
+    std::vector<std::size_t> count(e_.lines.size(), 0);
+    for (const LineCrossing& c : e_.line_crossings) ++count[c.line];
+    for (std::size_t k = 0; k < e_.lines.size(); ++k) parts_.on_line[k].reserve(count[k]);
     for (std::size_t k = 0; k < e_.line_crossings.size(); ++k)
       parts_.on_line[e_.line_crossings[k].line].push_back(static_cast<int>(k));
     first_gap_.push_back(0);
@@ -263,12 +266,12 @@ class Maker {
     };
     for (std::size_t k = 0; k < parts_.pieces.size(); ++k)
       parts_.region_of_piece.push_back(region(k));
+    parts_.region_of_gap.reserve(e_.lines.size());
     for (std::size_t line = 0; line < e_.lines.size(); ++line) {
-      parts_.region_of_gap.emplace_back();
-      for (int gap = first_gap_[line]; gap < first_gap_[line + 1]; ++gap) {
-        const int n = number[joined_.find(static_cast<int>(parts_.pieces.size()) + gap)];
-        parts_.region_of_gap.back().push_back(n);
-      }
+      std::vector<int>& regions = parts_.region_of_gap.emplace_back();
+      regions.reserve(parts_.on_line[line].size() + 1);
+      for (int gap = first_gap_[line]; gap < first_gap_[line + 1]; ++gap)
+        regions.push_back(number[joined_.find(static_cast<int>(parts_.pieces.size()) + gap)]);
     }
   }
 

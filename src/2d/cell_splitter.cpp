@@ -218,6 +218,7 @@ void CellSplitter::finish(const OpenCell& open, CellState state) {
 void CellSplitter::join(const OpenCell& cell, CellSplitter* part) {
   const int first = static_cast<int>(cells.size());
   const Partition::Numbers numbers = partition_.join(cell, part->partition_, first);
+  cells.reserve(cells.size() + part->cells.size());
   for (Cell& made : part->cells) {
     for (Vertex& vertex : made.vertices) {
       vertex.line_in = numbers.lines[vertex.line_in];

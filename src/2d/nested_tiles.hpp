@@ -30,6 +30,11 @@ class NestedTiles {
   TiledFunction& whole(int polynomial) { return whole_[index(polynomial)]; }
   /// For what happens in a part of the box: the innermost tiles that cover it.
   TiledFunction& about(int polynomial, const Box<2>& part);
+  /// Whether there are none inside these.
+  bool is_innermost(int polynomial, const TiledFunction& tiles) const {
+    const std::vector<TiledFunction>& inner = inner_[index(polynomial)];
+    return &tiles == (inner.empty() ? &whole_[index(polynomial)] : &inner.back());
+  }
   /// Appends the parameters between `from` and `to` at which a line enters or leaves the boxes of
   /// inner tiles, in ascending order; between two of them it is in the same boxes, about.
   void append_stops(int polynomial, const Line& line, double from, double to,

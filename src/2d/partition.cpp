@@ -64,8 +64,9 @@ bool Partition::isolate_in_parts(int curve, const Line& line, double from, doubl
     return isolate_on_line(f, line, lo, hi, max_nodes, kernel_, &found_);
   };
   stops_.clear();
-  tiles_.append_stops(curve, line, from, to, &stops_);
-  if (stops_.empty()) return isolate(from, to);
+  TiledFunction& whole = tiles_.about(curve, box_on_line(line, from, to));
+  if (!tiles_.is_innermost(curve, whole)) tiles_.append_stops(curve, line, from, to, &stops_);
+  if (stops_.empty()) return isolate_on_line(whole, line, from, to, max_nodes, kernel_, &found_);
   stops_.push_back(to);
   double last = from;
   bool proved = true;
@@ -83,6 +84,7 @@ bool Partition::isolate_between(int curve, const Line& line, const Interval& fro
                                 const Interval& to, int max_nodes, std::vector<Cut::Root>* roots) {
   found_.clear();
   if (!isolate_in_parts(curve, line, from.lo, to.hi, max_nodes)) return false;
+  if (found_.empty()) return true;
   TiledFunction& f = tiles_.about(curve, box_on_line(line, from.lo, to.hi));
   for (LineRoot& root : found_) {
     // The vertices must be free of the curve: no root in their enclosures.
@@ -181,6 +183,12 @@ OpenCell Partition::begin(const Partition& whole, const OpenCell& cell) {
 
 Partition::Numbers Partition::join(const OpenCell& cell, const Partition& part, int first_cell) {
   Numbers numbers;
+  numbers.lines.reserve(part.lines.size());
+  numbers.line_crossings.reserve(part.line_crossings.size());
+  lines.reserve(lines.size() + part.lines.size());
+  line_crossings.reserve(line_crossings.size() + part.line_crossings.size());
+  spots_.reserve(line_crossings.size() + part.line_crossings.size());
+  history.reserve(history.size() + part.history.size());
   for (const OpenCell::Edge& edge : cell.edges) numbers.lines.push_back(edge.line);
   for (std::size_t k = cell.edges.size(); k < part.lines.size(); ++k) {
     numbers.lines.push_back(static_cast<int>(lines.size()));

@@ -19,7 +19,7 @@ namespace {
 
 /// With so few curves alive, or so few pairs of several that may meet, a box is a leaf.
 constexpr std::size_t kFew = 2;
-constexpr int kFewPairs = 2;
+constexpr int kFewPairs = 4;
 /// So many halvings in a row that took no curve away: four times across either axis.
 constexpr int kInVain = 8;
 /// With more curves a halving counts as long as it takes some away from the other half, and it is
@@ -32,6 +32,7 @@ constexpr double kHardlySmaller = 0.6;
 /// So many leaves in which two curves are apart may be excluded with what is between them: a
 /// checker has to tell them apart again.
 constexpr std::size_t kMostTogether = 256;
+constexpr std::size_t kTokensPerLeaf = 8;  // of what is sought in leaves, about
 
 /// A curve in a box where it may have zeros, with its patch there if it has one already.
 struct Alive {
@@ -69,8 +70,8 @@ class SharedSubdivision {
     Part whole;
     whole.box = result_.cover.root;
     path_ = {};
-    whole.alive.resize(static_cast<std::size_t>(curves_.size()));
-    for (std::size_t c = 0; c < whole.alive.size(); ++c) whole.alive[c].curve = static_cast<int>(c);
+    whole.hold(static_cast<std::size_t>(curves_.size()));
+    for (std::size_t c = 0; c < whole.size(); ++c) whole.alive(c).curve = static_cast<int>(c);
     look_at(0, &whole);
     visit(0, 0, whole);
     return stopped_ || result_.visited < most_boxes_;
@@ -82,7 +83,18 @@ class SharedSubdivision {
     Box<2> box;
     bool inside = false;
     bool sharp = true;  ///< all their patches tell much
-    std::vector<Alive> alive;
+    std::vector<Alive> held;  ///< what `places` names, and others that do not count
+    std::vector<int> places;
+
+    std::size_t size() const { return places.size(); }
+    Alive& alive(std::size_t k) { return held[static_cast<std::size_t>(places[k])]; }
+    const Alive& alive(std::size_t k) const { return held[static_cast<std::size_t>(places[k])]; }
+    /// So many, the first ones held.
+    void hold(std::size_t count) {
+      if (held.size() < count) held.resize(count);
+      places.resize(count);
+      std::iota(places.begin(), places.end(), 0);
+    }
   };
   /// What looking at a part has brought.
   enum class Look { Outside, Gained, Nothing };
@@ -138,36 +150,37 @@ SharedSubdivision::Look SharedSubdivision::look_at(int level, Part* part) {
     if (where == false) return Look::Outside;
     part->inside = where.has_value();
   }
-  std::vector<Alive>& alive = part->alive;
+  std::vector<int>& places = part->places;
   std::size_t left = 0;
   part->sharp = true;
-  for (std::size_t k = 0; k < alive.size(); ++k) {
-    const bool tells = provide_patch(part->box, level, &alive[k]);
-    if (alive[k].expanded_at >= 0 && alive[k].patch.sign()) {
+  for (const int place : places) {
+    Alive& alive = part->held[static_cast<std::size_t>(place)];
+    const bool tells = provide_patch(part->box, level, &alive);
+    if (alive.expanded_at >= 0 && alive.patch.sign()) {
       kernel_.count(Kernel::kDoubleBits);
       continue;
     }
     part->sharp = part->sharp && tells;
-    if (left < k) alive[left] = alive[k];
-    ++left;
+    places[left++] = place;
   }
-  const bool gained = left < alive.size() || !part->sharp;
-  alive.resize(left);
+  const bool gained = left < places.size() || !part->sharp;
+  places.resize(left);
   return gained ? Look::Gained : Look::Nothing;
 }
 
 /// The pairs of curves that may have common zeros in the part: their number, and in `open_`, by the
 /// second and then the first one's place among those alive. Ends with the first beyond `most`.
 int SharedSubdivision::find_open_pairs(const Part& part, int most) {
-  const auto& alive = part.alive;
-  strips_.resize(alive.size());
+  strips_.resize(part.size());
   open_.clear();
   int count = 0;
-  for (std::size_t j = 0; j < alive.size(); ++j) {
-    if (alive[j].expanded_at >= 0) strips_[j] = strip_of(alive[j].patch);
+  for (std::size_t j = 0; j < part.size(); ++j) {
+    const Alive& second = part.alive(j);
+    if (second.expanded_at >= 0) strips_[j] = strip_of(second.patch);
     for (std::size_t i = 0; i < j; ++i) {
-      const bool open = alive[i].expanded_at < 0 || alive[j].expanded_at < 0 ||
-                        !apart(alive[i].patch, strips_[i], alive[j].patch, strips_[j]);
+      const Alive& first = part.alive(i);
+      const bool open = first.expanded_at < 0 || second.expanded_at < 0 ||
+                        !apart(first.patch, strips_[i], second.patch, strips_[j]);
       open_.push_back(open);
       count += open;
       if (count > most) return count;
@@ -178,18 +191,17 @@ int SharedSubdivision::find_open_pairs(const Part& part, int most) {
 
 /// Makes a part a leaf; its open pairs have been found.
 void SharedSubdivision::add_leaf(const Part& part) {
-  const auto& alive = part.alive;
   const int leaf = static_cast<int>(result_.boxes.size());
   result_.cover.tokens.push_back(leaf);
   auto& names = result_.cover.alive.emplace_back();
-  names.reserve(alive.size());
-  for (const Alive& a : alive) names.push_back(a.curve);
+  names.reserve(part.size());
+  for (std::size_t k = 0; k < part.size(); ++k) names.push_back(part.alive(k).curve);
   result_.boxes.push_back(part.box);
   result_.paths.push_back(path_);
   std::size_t pair = 0;
-  for (std::size_t j = 0; j < alive.size(); ++j)
+  for (std::size_t j = 0; j < names.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)
-      result_.meetings.push_back({alive[i].curve, alive[j].curve, leaf, !open_[pair++]});
+      result_.meetings.push_back({names[i], names[j], leaf, !open_[pair++]});
   for (const char open : open_)
     if (!open) kernel_.count(Kernel::kDoubleBits);
 }
@@ -209,9 +221,9 @@ void SharedSubdivision::visit(int level, int in_vain, Part& part) {
   Part& upper = part;
   const Box<2> box = part.box;
   const int axis = cover::kSplitX - wider_axis(box);
-  const bool several = part.alive.size() > kSeveral;
+  const bool several = part.size() > kSeveral;
   const bool few_open = !several && part.sharp && find_open_pairs(part, kFewPairs) <= kFewPairs;
-  if (part.alive.size() <= few_ || few_open || in_vain >= kInVain || level == kDeepest ||
+  if (part.size() <= few_ || few_open || in_vain >= kInVain || level == kDeepest ||
       result_.visited >= most_boxes_ || !halve_box(box, axis, &lower.box, &upper.box)) {
     if (!few_open) find_open_pairs(part, std::numeric_limits<int>::max());
     path_.length = level;
@@ -222,9 +234,9 @@ void SharedSubdivision::visit(int level, int in_vain, Part& part) {
   const std::uint64_t bit = std::uint64_t{1} << level;
   path_.across_y = axis == 1 ? path_.across_y | bit : path_.across_y & ~bit;
   lower.inside = upper.inside;
-  lower.alive.resize(upper.alive.size());
-  for (std::size_t k = 0; k < upper.alive.size(); ++k) {
-    Alive &below = lower.alive[k], &above = upper.alive[k];
+  lower.hold(upper.size());
+  for (std::size_t k = 0; k < upper.size(); ++k) {
+    Alive &below = lower.alive(k), &above = upper.alive(k);
     below.curve = above.curve;
     below.expanded_at = above.expanded_at;
     if (above.expanded_at >= 0) halve(above.patch, axis, false, &below.patch, &above.patch);
@@ -344,6 +356,8 @@ Sought<2> sought_in(const SharedLeaves& leaves, const MeetingPair& pair, NestedT
     halve_box(sought.root, bit(first.across_y, level) ? 1 : 0, &lower, &upper);
     sought.root = bit(first.upper, level) ? upper : lower;
   }
+  sought.tokens.reserve(kTokensPerLeaf * pair.meetings.size());
+  sought.leaves.reserve(pair.open());
   for (const Meeting& m : pair.meetings) {
     if (m.apart && together) continue;
     pruning.go_to(path(m), &sought.tokens);

@@ -10,10 +10,10 @@ namespace encase {
 namespace {
 
 constexpr double kMiddle = 0.35;     // where the middle of the projections begins
-constexpr int kMostInMiddle = 1500;  // projections
-// Of more than two curves: that many projections, and crossings from which on a cell is halved
-// whatever the branches of one curve do.
-constexpr int kMostInMiddleOfMany = 64, kManyCrossings = 16;
+constexpr int kMostProjected = 256;  // crossings; of more than twice as many every other, and so on
+// Of more than two curves: crossings from which on a cell is halved whatever the branches of one
+// curve do.
+constexpr int kManyCrossings = 16;
 constexpr int kMaxBisected = 6;    // crossings up to which pairs of them are bisected
 constexpr int kBisectedPairs = 3;  // of crossings
 constexpr int kSaddles = 4;        // of a curve
@@ -25,10 +25,12 @@ constexpr int kApproachedPairs = 8;    // of boundary points
 constexpr int kMostApproached = 2000;  // points, of all pairs of which the closest are taken
 constexpr int kApproachSteps = 2;
 constexpr int kProjections = 2;           // onto the curve, in each
-constexpr double kEnoughWhenFast = -0.5;  // expected cells that a cut has to save
-constexpr double kPoor = 1;          // a cut that does not save so many calls for closest approach
-constexpr double kPoorOfMany = 0.5;  // the same, of more than two curves
-constexpr double kPoorWhenFast = -1;
+// Expected cells that a cut has to save, so that no better one is looked for. (Of two curves, not
+// fast: as many as can be.)
+constexpr double kEnoughWhenFast = -0.5;
+constexpr double kEnoughOfMany = 1;
+constexpr double kPoor = 1;  // a cut that does not save so many calls for closest approach
+constexpr double kPoorWhenFastOrMany = -1;
 constexpr double kPoorWhenStalled = 0;  // and in the first levels without progress for fans
 constexpr int kFanLevels = 2;
 constexpr int kFanPairs = 4;  // of boundary points
@@ -97,9 +99,8 @@ SplittingLines::SplittingLines(CellAtHand& cell, bool fast)
 
 /// Whether the best line is proved to be good enough.
 bool SplittingLines::is_good_enough() {
-  const auto seems_good = [&] {
-    return cell_.seems_finished() || (fast_ && seems_to_save(kEnoughWhenFast));
-  };
+  const double enough = fast_ ? kEnoughWhenFast : of_many() ? kEnoughOfMany : HUGE_VAL;
+  const auto seems_good = [&] { return cell_.seems_finished() || seems_to_save(enough); };
   return seems_good() && cell_.prove_best() && seems_good();
 }
 
@@ -111,14 +112,13 @@ void SplittingLines::propose_between_crossings() {
     return partition_.crossings[crossings[i]].point;
   };
   // The largest gap in the middle of the projections, in four directions.
-  const int most = cell_.curves().size() > 2 ? kMostInMiddleOfMany : kMostInMiddle;
-  const double outside = std::max(kMiddle, 0.5 - 0.5 * most / n);
-  const int from = static_cast<int>(outside * (n - 1));
-  const int to = std::max(from + 1, static_cast<int>(std::ceil((1 - outside) * (n - 1))));
+  const int step = (n + kMostProjected - 1) / kMostProjected, last_place = (n - 1) / step;
+  const int from = static_cast<int>(kMiddle * last_place);
+  const int to = std::max(from + 1, static_cast<int>(std::ceil((1 - kMiddle) * last_place)));
   for (const Point<2>& d :
        {Point<2>{1, 0}, Point<2>{0, 1}, Point<2>{0.7071, 0.7072}, Point<2>{0.7072, -0.7071}}) {
     projections_.clear();
-    for (int i = 0; i < n; ++i) projections_.push_back(dot(point(i), d));
+    for (int i = 0; i < n; i += step) projections_.push_back(dot(point(i), d));
     // Only the middle has to be in order.
     const auto first = projections_.begin() + from, last = projections_.begin() + to;
     std::nth_element(projections_.begin(), first, projections_.end());
@@ -443,11 +443,11 @@ bool SplittingLines::find_best() {
     if (cell_.prove_best() || find_bisector()) return true;
   }
   propose_between_crossings();
-  const bool crowded = curves.size() > 2 && cell_.cell().crossings.size() >= kManyCrossings;
+  const bool crowded = of_many() && cell_.cell().crossings.size() >= kManyCrossings;
   if (!crowded && !is_good_enough()) propose_between_branches();
   if (!is_good_enough()) propose_between_curves();
   if (!is_good_enough()) propose_between_two_branches();
-  if (!seems_to_save(fast_ ? kPoorWhenFast : curves.size() > 2 ? kPoorOfMany : kPoor))
+  if (!seems_to_save(fast_ || of_many() ? kPoorWhenFastOrMany : kPoor))
     propose_closest_approach();
   if (!fast_ && stall > 0 && stall <= kFanLevels && !seems_to_save(kPoorWhenStalled))
     propose_fans();

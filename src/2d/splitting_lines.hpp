@@ -30,6 +30,7 @@ class SplittingLines {
     int a, b;
     double gap;  ///< squared
   };
+  bool of_many() const { return cell_.curves().size() > 2; }
   void keep_closest(std::size_t count);
   bool seems_to_save(double cells) const;
   bool is_good_enough();
