@@ -198,6 +198,7 @@ void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_budgets(*c, r.options);
+  add_threads(*c, r.options.threads, "how many may work; the result is the same for any number");
   add_reports(*c, r);
   c->footer(std::string(kSurfacesFile) + kExitCodes);
 }

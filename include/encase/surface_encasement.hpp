@@ -212,12 +212,13 @@ struct SurfaceEncasement {
 
 struct SurfaceOptions {
   int max_cells = 20000;
-  double max_seconds = 60;  ///< CPU seconds
+  double max_seconds = 60;  ///< CPU seconds, of all threads together
   int max_bits = 848;       ///< precision cap of the MPFR rung
   int start_bits = 53;      ///< 53: doubles first; more: MPFR from there
   /// A curve along which surfaces are singular or touch is left in cells of this part of the
   /// region's size: Degenerate. (A single such point in far smaller ones.)
   double singular_width = 0x1p-6;
+  int threads = 1;          ///< how many may work; the result is the same for any number
   double perturbation = 0;  ///< delta > 0 perturbs every coefficient
   std::uint64_t seed = 1;
   /// As EncaseOptions'.

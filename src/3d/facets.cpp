@@ -29,7 +29,7 @@ const FacetEncaser::OnPlane& FacetEncaser::restricted(int plane, int surface) {
   return result;
 }
 
-EncasedFacet FacetEncaser::encase(FacetPlace place, const std::vector<int>& surfaces) {
+EncasedFacet FacetEncaser::facet_at(FacetPlace place, const std::vector<int>& surfaces) {
   std::vector<int> with_curves;
   std::optional<FacetTrouble> trouble;
   for (const int s : surfaces) {
@@ -55,21 +55,36 @@ EncasedFacet FacetEncaser::encase(FacetPlace place, const std::vector<int>& surf
   facet.polygon = std::move(place.polygon);
   facet.side_planes = std::move(place.side_planes);
   facet.surfaces = std::move(with_curves);
-  if (!result.trouble && !facet.surfaces.empty()) result.trouble = encase(&facet);
+  result.is_open = !result.trouble && !facet.surfaces.empty();
   return result;
 }
 
-std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet) {
+void FacetEncaser::encase(
+    std::vector<EncasedFacet>& facets,
+    const std::function<void(int, const std::function<void(int)>&)>& for_all) {
+  std::vector<EncasedFacet*> open;
+  for (EncasedFacet& facet : facets)
+    if (facet.is_open) open.push_back(&facet);
+  std::vector<DecisionCounts> decisions(open.size());
+  for_all(static_cast<int>(open.size()), [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    open[k]->trouble = encase(&open[k]->facet, &decisions[k]);
+    open[k]->is_open = false;
+  });
+  for (const DecisionCounts& counts : decisions) decisions_ += counts;
+  encased_ += static_cast<std::int64_t>(open.size());
+}
+
+std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet, DecisionCounts* decisions) const {
   std::vector<NamedCurve> curves;
   std::vector<const FilteredFunction<2>*> prepared;
   for (const int s : facet->surfaces) {
-    const OnPlane& on_plane = restricted(facet->plane, s);
+    const OnPlane& on_plane = restricted_.at({facet->plane, s});
     curves.emplace_back();
     curves.back().name = surfaces_[static_cast<std::size_t>(s)].name;
     curves.back().function = on_plane.function;
     prepared.push_back(&*on_plane.filtered);
   }
-  ++encased_;
   // As `encase`, but of the polygon itself, whatever meets its sides.
   Encaser run(curves, facet->polygon, options_);
   run.take_curves(prepared);
@@ -83,7 +98,7 @@ std::optional<FacetTrouble> FacetEncaser::encase(Facet* facet) {
   run.finish_cells();
   run.decide_outcome();
   Encasement e = run.take_result();
-  decisions_ += e.statistics.decisions;
+  *decisions = e.statistics.decisions;
   if (e.outcome == Outcome::Undecided)
     return FacetTrouble{Outcome::Undecided, e.undecided.empty() ? "a facet was left undecided"
                                                                 : e.undecided.front().reason};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,7 +27,8 @@ struct FacetTrouble {
 /// A facet, and what is wrong with it if it is not certified.
 struct EncasedFacet {
   Facet facet;
-  Box<3> extent;  ///< its place's
+  Box<3> extent;         ///< its place's
+  bool is_open = false;  ///< it has curves, and is not encased yet
   std::optional<FacetTrouble> trouble;
 };
 
@@ -41,8 +43,12 @@ class FacetEncaser {
 
   PlaneCharts& charts() { return charts_; }
 
-  /// The facet at a place, of the surfaces that may meet it.
-  EncasedFacet encase(FacetPlace place, const std::vector<int>& surfaces);
+  /// The facet at a place, with the surfaces that may meet it: encased already, or to be.
+  EncasedFacet facet_at(FacetPlace place, const std::vector<int>& surfaces);
+  /// Encases those that are not yet. `for_all(count, work)` calls work(i) for 0 <= i < count, each
+  /// once, on any threads.
+  void encase(std::vector<EncasedFacet>& facets,
+              const std::function<void(int, const std::function<void(int)>&)>& for_all);
   /// Takes back facets that may be asked for again.
   void recycle(std::vector<EncasedFacet> facets);
 
@@ -57,7 +63,7 @@ class FacetEncaser {
     std::optional<Sign> constant;
   };
   const OnPlane& restricted(int plane, int surface);
-  std::optional<FacetTrouble> encase(Facet* facet);
+  std::optional<FacetTrouble> encase(Facet* facet, DecisionCounts* decisions) const;
 
   using Key = std::tuple<int, Point<3>, Point<3>, std::vector<int>>;
   const std::vector<Surface>& surfaces_;

@@ -88,6 +88,7 @@ struct SpacePartition::State {
   int listed(const Item& item, std::size_t a, std::size_t b) const;
   bool triples_known(Item& item) const;
   bool certify(Item& item);
+  int undefined_surface(const Item& item) const;
   bool seems_singular(const Item& item) const;
   void leave_rows(std::vector<Item>* open);
   void settle(Item& item, CellState state);
@@ -317,6 +318,27 @@ bool SpacePartition::State::certify(Item& item) {
   return find_pairs(item, graphs_found) && graphs_found && triples_known(item);
 }
 
+/// A surface of an open leaf of which no model exists on the leaf, which is small or lies where the
+/// surface's function seems to have no values at all; -1: none.
+int SpacePartition::State::undefined_surface(const Item& item) const {
+  const Box<3>& box = leaves[static_cast<std::size_t>(item.leaf)].box;
+  const bool small = box.largest_width() <= limits.singular_width * root.largest_width();
+  for (std::size_t a = 0; a < item.size(); ++a) {
+    if (std::isfinite(item.nets[a].radius)) continue;
+    const int s = item.alive[a];
+    bool defined = false;
+    for (int corner = 0; corner < 9 && !small && !defined; ++corner) {
+      Point<3> p = box.center();
+      for (std::size_t i = 0; i < 3 && corner < 8; ++i)
+        p[i] = corner >> i & 1 ? box.hi[i] : box.lo[i];
+      defined = std::isfinite(
+          scene.surfaces[static_cast<std::size_t>(s)].evaluate(p, kernel.start_bits).error);
+    }
+    if (!defined) return s;
+  }
+  return -1;
+}
+
 /// Whether what is not certified in an open leaf seems to be so because surfaces are not in general
 /// position there.
 bool SpacePartition::State::seems_singular(const Item& item) const {
@@ -429,6 +451,8 @@ bool SpacePartition::State::corners_clear(const Item& item, int axis, double at,
           p[i] = (corner >> k) % 2 ? box.hi[i] : box.lo[i];
         }
         const auto v = f.evaluate(p, kernel.start_bits);
+        // (Where it has no value no certificate of it holds, so no cell there asks for this.)
+        if (!std::isfinite(v.error)) continue;
         const double least = strictly ? 0x1p-8 * largest_coefficient(net) : 0;
         if (!(std::fabs(v.value) > std::max(v.error, least))) return false;
       }
@@ -576,7 +600,10 @@ void SpacePartition::State::run(std::vector<Item> level) {
       if (++visited % 16 == 0 && !stopped) stopped = limits.stop && limits.stop();
       if (!stopped && certify(item))
         settle(item, CellState::Certified);
-      else
+      else if (const int s = undefined_surface(item); s >= 0) {
+        leaves[static_cast<std::size_t>(item.leaf)].without_model = s;
+        settle(item, CellState::Undecided);
+      } else
         open.push_back(std::move(item));
     }
     leave_rows(&open);

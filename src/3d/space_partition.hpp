@@ -51,10 +51,11 @@ class SpacePartition {
     int depth = 0;                           ///< number of splits above it
     CellState state = CellState::Undecided;  ///< Certified or Undecided
     bool in_row = false;                     ///< Undecided, and left as one of a row
-    std::vector<Sign> signs;                 ///< of every surface; Zero: it may meet the leaf
-    std::vector<int> absences;       ///< in `absences()`, one for every sign that is not Zero
-    std::vector<int> graphs;         ///< in `graphs()`, one for every sign that is Zero
-    std::vector<int> pairs;          ///< in `pairs()`, one for every pair with signs Zero
+    int without_model = -1;     ///< Undecided, and left because this surface seems undefined there
+    std::vector<Sign> signs;    ///< of every surface; Zero: it may meet the leaf
+    std::vector<int> absences;  ///< in `absences()`, one for every sign that is not Zero
+    std::vector<int> graphs;    ///< in `graphs()`, one for every sign that is Zero
+    std::vector<int> pairs;     ///< in `pairs()`, one for every pair with signs Zero
     std::vector<int> triple_points;  ///< of those given
   };
 

@@ -13,6 +13,7 @@
 #include "3d/solid_region.hpp"
 #include "3d/solid_sides.hpp"
 #include "common/isolate_roots.hpp"
+#include "common/parallel.hpp"
 
 namespace encase {
 
@@ -49,7 +50,7 @@ std::string SurfaceEncaser::decimal(double x) {
 
 SurfaceEncaser::SurfaceEncaser(const std::vector<NamedSurface>& input, const Polyhedron& region,
                                const SurfaceOptions& options)
-    : options_(options) {
+    : options_(options), clock_(std::max(options.threads, 1)) {
   kernel_.start_bits = std::max(options.start_bits, Kernel::kDoubleBits);
   kernel_.max_bits = std::max(options.max_bits, kernel_.start_bits);
   result_.input = input;
@@ -68,11 +69,24 @@ bool SurfaceEncaser::out_of_budget() {
 }
 
 bool SurfaceEncaser::stop(const char* stage) {
+  const std::lock_guard lock(mutex_);
   if (!is_stopped_ && options_.progress && !options_.progress(stage, -1)) {
     budget_ = "the computation was cancelled";
     is_stopped_ = true;
   }
   return out_of_budget();
+}
+
+/// Calls work(i, kernel) for 0 <= i < count, each once, on as many threads as may work, with
+/// kernels of their own.
+void SurfaceEncaser::share_out(int count, const std::function<void(int, Kernel&)>& work) {
+  std::vector<Kernel> kernels(static_cast<std::size_t>(count), kernel_.fresh());
+  const RunClock::SharedOut shared_out(clock_);
+  parallel_for(count, options_.threads, [&](int i) {
+    const RunClock::Shift shift(clock_);
+    work(i, kernels[static_cast<std::size_t>(i)]);
+  });
+  for (const Kernel& kernel : kernels) kernel_.add(kernel);
 }
 
 SubdivisionLimits SurfaceEncaser::limits(const char* stage) {
@@ -118,16 +132,23 @@ bool SurfaceEncaser::isolate_triple_points() {
   inside_.clear();
   bool is_generic = true;
   const Box<3> box = region_.polyhedron.bounding_box();
+  std::vector<std::array<int, 3>> triples;
   const int n = static_cast<int>(surfaces_.size());
   for (int f = 0; f < n; ++f)
     for (int g = f + 1; g < n; ++g)
-      for (int h = g + 1; h < n; ++h) {
-        if (apart_.count({f, g}) + apart_.count({f, h}) + apart_.count({g, h}) > 0) continue;
-        const auto at = [&](int s) { return &surfaces_[static_cast<std::size_t>(s)]; };
-        RootIsolation<3> roots = isolate_roots<3>({at(f), at(g), at(h)}, box, sides_,
-                                                  limits("isolating triple points"), kernel_);
-        is_generic = add_triple_points(std::move(roots), {f, g, h}) && is_generic;
-      }
+      for (int h = g + 1; h < n; ++h)
+        if (apart_.count({f, g}) + apart_.count({f, h}) + apart_.count({g, h}) == 0)
+          triples.push_back({f, g, h});
+  std::vector<RootIsolation<3>> roots(triples.size());
+  share_out(static_cast<int>(triples.size()), [&](int i, Kernel& kernel) {
+    const auto at = [&](std::size_t k) {
+      return &surfaces_[static_cast<std::size_t>(triples[static_cast<std::size_t>(i)][k])];
+    };
+    roots[static_cast<std::size_t>(i)] = isolate_roots<3>(
+        {at(0), at(1), at(2)}, box, sides_, limits("isolating triple points"), kernel);
+  });
+  for (std::size_t k = 0; k < triples.size(); ++k)
+    is_generic = add_triple_points(std::move(roots[k]), triples[k]) && is_generic;
   return is_generic;
 }
 
@@ -198,32 +219,38 @@ bool SurfaceEncaser::gradients_are_parallel(int f, int g) const {
 void SurfaceEncaser::isolate_critical_points() {
   result_.critical_points.clear();
   directions_.clear();
-  const int n = static_cast<int>(surfaces_.size());
-  int number = 0;
-  for (int f = 0; f < n; ++f)
-    for (int g = f + 1; g < n; ++g)
-      for (int k = most_lists(surfaces_[static_cast<std::size_t>(f)].degree() +
-                              surfaces_[static_cast<std::size_t>(g)].degree());
-           k > 0 && isolate_critical_points(f, g, generic_direction(number++)); --k) {
-      }
-}
-
-/// Whether another direction may serve where this one does not.
-bool SurfaceEncaser::isolate_critical_points(int f, int g, const Point<3>& w) {
-  if (apart_.count({f, g}) > 0 || gradients_are_parallel(f, g)) return false;
-  auto found = pair_critical_points(
-      surfaces_[static_cast<std::size_t>(f)], surfaces_[static_cast<std::size_t>(g)], w,
-      region_.polyhedron.bounding_box(), sides_, limits("isolating critical points"), kernel_);
-  if (!found) return false;
-  const bool is_final = found->points.roots.empty() && found->points.unresolved.empty();
-  result_.statistics.critical_boxes += found->points.boxes;
-  result_.critical_points.push_back({{f, g},
-                                     w,
-                                     std::move(found->points.roots),
-                                     found->points.root_box,
-                                     std::move(found->points.tokens)});
-  directions_.push_back(std::move(found->direction));
-  return !is_final;
+  std::vector<std::array<int, 2>> pairs;
+  for (int f = 0; f < static_cast<int>(surfaces_.size()); ++f)
+    for (int g = f + 1; g < static_cast<int>(surfaces_.size()); ++g)
+      if (apart_.count({f, g}) == 0) pairs.push_back({f, g});
+  const int count = static_cast<int>(pairs.size());
+  struct List {
+    Point<3> w;
+    PairCriticalPoints found;
+  };
+  std::vector<std::vector<List>> lists(pairs.size());
+  share_out(count, [&](int i, Kernel& kernel) {
+    const auto [f, g] = pairs[static_cast<std::size_t>(i)];
+    if (gradients_are_parallel(f, g)) return;
+    const FilteredFunction<3>&a = surfaces_[static_cast<std::size_t>(f)],
+          &b = surfaces_[static_cast<std::size_t>(g)];
+    for (int k = 0; k < most_lists(a.degree() + b.degree()); ++k) {
+      const Point<3> w = generic_direction(i + k * count);
+      auto found = pair_critical_points(a, b, w, region_.polyhedron.bounding_box(), sides_,
+                                        limits("isolating critical points"), kernel);
+      if (!found) break;
+      const bool is_final = found->points.roots.empty() && found->points.unresolved.empty();
+      lists[static_cast<std::size_t>(i)].push_back({w, std::move(*found)});
+      if (is_final) break;
+    }
+  });
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (auto& [w, found] : lists[k]) {
+      result_.statistics.critical_boxes += found.points.boxes;
+      result_.critical_points.push_back({pairs[k], w, std::move(found.points.roots),
+                                         found.points.root_box, std::move(found.points.tokens)});
+      directions_.push_back(std::move(found.direction));
+    }
 }
 
 void SurfaceEncaser::partition() {
@@ -287,8 +314,11 @@ void SurfaceEncaser::encase_facets() {
       }
     for (const int cell : place.cells)
       if (cell >= 0) cells_[static_cast<std::size_t>(cell)].facets.push_back(index);
-    facets_.push_back(encaser_->encase(std::move(place), surfaces));
+    facets_.push_back(encaser_->facet_at(std::move(place), surfaces));
   }
+  encaser_->encase(facets_, [this](int count, const std::function<void(int)>& work) {
+    share_out(count, [&](int i, Kernel&) { work(i); });
+  });
   std::vector<Facet*> facets;
   for (EncasedFacet& encased : facets_) facets.push_back(&encased.facet);
   points_ = number_facet_points(surfaces_, partition_->planes(), encaser_->charts(), facets);

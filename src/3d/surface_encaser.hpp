@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -40,6 +42,7 @@ class SurfaceEncaser {
   static std::string decimal(double x);
   bool out_of_budget();
   bool stop(const char* stage);
+  void share_out(int count, const std::function<void(int, Kernel&)>& work);
   SubdivisionLimits limits(const char* stage);
   void separate_polynomials();
   void separate_others();
@@ -49,7 +52,6 @@ class SurfaceEncaser {
                     const std::string& diagnosis);
   void find_apart_pairs();
   bool add_triple_points(RootIsolation<3> roots, const std::array<int, 3>& surfaces);
-  bool isolate_critical_points(int f, int g, const Point<3>& w);
   bool gradients_are_parallel(int f, int g) const;
   void encase_facets();
   /// Reads all cells, those first that were not read before; false if some were ambiguous and have
@@ -102,6 +104,7 @@ class SurfaceEncaser {
   std::vector<EncasedFacet> facets_;
   std::vector<FacetPoint> points_;
   std::vector<Cell> cells_;
+  std::mutex mutex_;  ///< of what follows
   bool is_stopped_ = false;
   std::string budget_;  ///< the sentence that tells which ran out; empty if none did
 };

@@ -65,6 +65,11 @@ void SurfaceEncaser::report_boxes(const std::vector<Box<3>>& boxes, UnresolvedIn
 /// Why a leaf has not got its certificates.
 SurfaceEncaser::Diagnosis SurfaceEncaser::diagnose(int index) const {
   const SpacePartition::Leaf& leaf = partition_->leaves()[static_cast<std::size_t>(index)];
+  if (const int s = leaf.without_model; s >= 0)
+    return {Unresolved::Kind::NotAnalytic,
+            {s},
+            "the function of surface '" + result_.surfaces[static_cast<std::size_t>(s)].name +
+                "' is not defined, has a pole or is not differentiable here, or nearly"};
   std::set<int> without_graph, without_pair;
   for (std::size_t s = 0; s < leaf.signs.size(); ++s)
     if (leaf.signs[s] == Sign::Zero) without_graph.insert(static_cast<int>(s));
@@ -116,8 +121,8 @@ UnresolvedInSpace SurfaceEncaser::why_not_certified(int index) const {
   }
   Diagnosis diagnosis = diagnose(index);
   const double size = region_.polyhedron.bounding_box().largest_width();
-  const bool at_cap =
-      leaf.in_row || leaf.box.largest_width() <= 2 * PartitionLimits().smallest * size;
+  const bool at_cap = leaf.in_row || leaf.without_model >= 0 ||
+                      leaf.box.largest_width() <= 2 * PartitionLimits().smallest * size;
   entry.surfaces = std::move(diagnosis.surfaces);
   entry.kind = at_cap ? diagnosis.kind : Unresolved::Kind::Budget;
   entry.reason = at_cap ? diagnosis.reason
@@ -135,7 +140,7 @@ void SurfaceEncaser::report_cells() {
     if (result_.cells[k].state == CellState::Certified) continue;
     const int cell = static_cast<int>(k);
     UnresolvedInSpace entry = why_not_certified(cell);
-    if (partition_->leaves()[k].in_row) {
+    if (partition_->leaves()[k].in_row || partition_->leaves()[k].without_model >= 0) {
       auto& row = rows[{entry.kind, entry.surfaces}];
       row.push_back({cell, std::move(entry)});
     } else {
