@@ -349,7 +349,7 @@ class Builder {
       h.face = h.face == kOutside ? a_.outside : face_of[h.face];
   }
 
-  static constexpr int kOutside = -2;             ///< in place of a region of parts
+  static constexpr int kOutside = -2;            ///< in place of a region of parts
   static constexpr std::size_t kFewStrands = 4;  ///< that most edges have at most
 
   const Encasement& e_;

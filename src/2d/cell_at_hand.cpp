@@ -37,7 +37,7 @@ constexpr double kBalance = 0.05;
 constexpr double kTie = 1e-9;
 
 constexpr std::size_t kFewCurves = 2;  // the single branches of which are looked at in full
-constexpr int kMostGroups = 80;  // of marks, that are worth bits of their own
+constexpr int kMostGroups = 80;        // of marks, that are worth bits of their own
 
 // How much larger than the cell the box of its sketches may be: on average, and one side of it.
 constexpr double kLarger = 2.5, kMostLarger = 64;

@@ -151,7 +151,7 @@ class CellAtHand {
   Part whole_;
   std::array<Part, 2> parts_;
   std::array<Branches, 2> branches_;  // of all curves, in either part
-  std::vector<int> slot_;  // of every curve, among those present; -1 for others
+  std::vector<int> slot_;             // of every curve, among those present; -1 for others
   std::vector<InnerCrossing> crossings_;
   // The vertices, the crossings and the points on the boundary; groups: all crossings, and of each
   // slot the crossings and the points. Of many curves these groups would be large and sparse: then

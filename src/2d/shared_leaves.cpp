@@ -82,7 +82,7 @@ class SharedSubdivision {
   struct Part {
     Box<2> box;
     bool inside = false;
-    bool sharp = true;  ///< all their patches tell much
+    bool sharp = true;        ///< all their patches tell much
     std::vector<Alive> held;  ///< what `places` names, and others that do not count
     std::vector<int> places;
 

@@ -24,7 +24,7 @@ constexpr int kCurvePairs = 4;         // of neighbours on the boundary, of diff
 constexpr int kApproachedPairs = 8;    // of boundary points
 constexpr int kMostApproached = 2000;  // points, of all pairs of which the closest are taken
 constexpr int kApproachSteps = 2;
-constexpr int kProjections = 2;           // onto the curve, in each
+constexpr int kProjections = 2;  // onto the curve, in each
 // Expected cells that a cut has to save, so that no better one is looked for. (Of two curves, not
 // fast: as many as can be.)
 constexpr double kEnoughWhenFast = -0.5;
@@ -447,8 +447,7 @@ bool SplittingLines::find_best() {
   if (!crowded && !is_good_enough()) propose_between_branches();
   if (!is_good_enough()) propose_between_curves();
   if (!is_good_enough()) propose_between_two_branches();
-  if (!seems_to_save(fast_ || of_many() ? kPoorWhenFastOrMany : kPoor))
-    propose_closest_approach();
+  if (!seems_to_save(fast_ || of_many() ? kPoorWhenFastOrMany : kPoor)) propose_closest_approach();
   if (!fast_ && stall > 0 && stall <= kFanLevels && !seems_to_save(kPoorWhenStalled))
     propose_fans();
   return cell_.prove_best() || find_bisector();
