@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/interval.hpp"
+#include "common/numerator.hpp"
 
 namespace encase {
 
@@ -142,6 +143,11 @@ const PlaneChart& PlaneCharts::of(int plane) {
   if (charts_.size() <= index) charts_.resize(planes_.size());
   if (!charts_[index]) charts_[index].emplace(planes_[index].exact());
   return *charts_[index];
+}
+
+Function<2> on_facet(const PlaneChart& chart, const Function<3>& surface) {
+  if (!surface.is_expression()) return chart.restrict(surface);
+  return chart.restrict(Function<3>(numerator_of(surface.expression()).numerator));
 }
 
 std::vector<FacetPlace> facet_places(const BoxPartition& partition, const SolidRegion& region,

@@ -37,6 +37,10 @@ class PlaneCharts {
   std::vector<std::optional<PlaneChart>> charts_;
 };
 
+/// A surface on a facet's plane: of an expression its numerator, which is what cells are told of.
+/// In certified cells both have the same zeros; the sign of a denominator may depend on the plane.
+Function<2> on_facet(const PlaneChart& chart, const Function<3>& surface);
+
 /// All facets of the cells, which are the parts of the leaves' boxes in the region. In an order
 /// that depends on the partition only.
 std::vector<FacetPlace> facet_places(const BoxPartition& partition, const SolidRegion& region,

@@ -15,7 +15,7 @@ const FacetEncaser::OnPlane& FacetEncaser::restricted(int plane, int surface) {
   OnPlane& result = entry->second;
   if (!is_new) return result;
   result.function =
-      charts_.of(plane).restrict(surfaces_[static_cast<std::size_t>(surface)].function);
+      on_facet(charts_.of(plane), surfaces_[static_cast<std::size_t>(surface)].function);
   const Function<2>& f = result.function;
   const bool is_constant =
       f.is_polynomial() ? f.polynomial().is_constant()

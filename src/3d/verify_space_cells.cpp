@@ -48,7 +48,7 @@ void check_facet(SpaceClaims& claims, std::size_t k) {
       may_meet =
           may_meet && (c < 0 || claims.cell(c).signs[static_cast<std::size_t>(s)] == Sign::Zero);
     if (!may_meet) continue;
-    Function<2> f = chart.restrict(e.surfaces[static_cast<std::size_t>(s)].function);
+    Function<2> f = on_facet(chart, e.surfaces[static_cast<std::size_t>(s)].function);
     if (is_constant_but_zero(f, claims.kernel)) continue;
     expected.push_back(s);
     functions.push_back(std::move(f));

@@ -282,5 +282,19 @@ TEST(SurfaceEncasement, ABudgetLeavesTheRestUndecided) {
             Outcome::Undecided);
 }
 
+TEST(SurfaceEncasement, ADenominatorMayBeNegative) {
+  // On some planes it is a constant, and its numerator there is not that in space.
+  const auto x = Expression::variable(0), y = Expression::variable(1), z = Expression::variable(2);
+  const Expression three(3), third(Rational(1, 3));
+  const Expression negative = Expression(1) / (x - three) + y * z + third,
+                   positive = Expression(-1) / (three - x) + y * z + third;
+  for (const Expression& f : {negative, positive}) {
+    const SurfaceEncasement e =
+        certified_scene({{"quotient", f}, surface("sphere", "x^2+y^2+z^2-2")}, cube(2));
+    EXPECT_EQ(euler_characteristic(e, 0), 1);
+    EXPECT_EQ(euler_characteristic(e, 1), 2);
+  }
+}
+
 }  // namespace
 }  // namespace encase
