@@ -48,8 +48,8 @@ bool misses(const FilteredFunction<3>& f, const RationalPoint<3>& a, const Ratio
   return misses(f, a, middle, kernel, halvings - 1) && misses(f, middle, b, kernel, halvings - 1);
 }
 
-/// Points of a facet to which straight ways are tried.
-constexpr int kTargets = 24;
+/// Points of a facet to which straight ways are tried, and those tried first, for free ways.
+constexpr int kTargets = 24, kFreeTargets = 4;
 
 }  // namespace
 
@@ -97,13 +97,16 @@ struct RegionLocator::Tables {
     return arrangement.region_of_facet[f][feature.index];
   }
 
-  /// Which surfaces a segment in a cell crosses, in order, if that can be told.
+  /// Which surfaces a segment in a cell crosses, in order, if that can be told; `freely`: only if
+  /// it is none.
   std::optional<std::vector<int>> crossed(int cell, const RationalPoint<3>& from,
-                                          const RationalPoint<3>& to, Kernel& kernel) const {
+                                          const RationalPoint<3>& to, bool freely,
+                                          Kernel& kernel) const {
     std::vector<int> met;
     std::vector<const Function<3>*> functions;
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       if (e.cells[cell].signs[s] != Sign::Zero || misses(surfaces[s], from, to, kernel)) continue;
+      if (freely) return std::nullopt;
       met.push_back(static_cast<int>(s));
       functions.push_back(&e.surfaces[s].function);
     }
@@ -129,10 +132,10 @@ struct RegionLocator::Tables {
   /// across one surface after the other: the regions in which the point may lie. Nothing if the way
   /// does not tell.
   std::optional<std::vector<int>> regions_along(const RationalPoint<3>& point, int cell, int f,
-                                                const RationalPoint<2>& on_facet,
+                                                const RationalPoint<2>& on_facet, bool freely,
                                                 Kernel& kernel) const {
     const RationalPoint<3> target = PlaneChart(planes[e.facets[f].plane]).lift(on_facet);
-    const auto way = crossed(cell, point, target, kernel);
+    const auto way = crossed(cell, point, target, freely, kernel);
     if (!way) return std::nullopt;
     const int last = region_at(f, on_facet);
     if (last < 0) return std::nullopt;
@@ -172,17 +175,19 @@ struct RegionLocator::Tables {
     std::vector<int> candidates;
     for (const int region : regions_of_cell[cell])
       if (arrangement.regions[region].signs == signs) candidates.push_back(region);
-    // Every way leaves fewer of them.
-    for (int k = 0; k < kTargets; ++k)
+    if (candidates.size() == 1) return {Place::Kind::Region, candidates[0], {}};
+    // Every way leaves fewer of them. Those that cross nothing come first: they cost least.
+    for (int k = -kFreeTargets; k < kTargets; ++k)
       for (const int f : e.cells[cell].facets) {
-        if (candidates.size() == 1) return {Place::Kind::Region, candidates[0], {}};
-        const auto regions = regions_along(point, cell, f, target(point, f, k), kernel);
+        const bool freely = k < 0;
+        const auto regions = regions_along(
+            point, cell, f, target(point, f, freely ? k + kFreeTargets : k), freely, kernel);
         if (!regions) continue;
         std::erase_if(candidates, [&](int r) {
           return std::find(regions->begin(), regions->end(), r) == regions->end();
         });
+        if (candidates.size() == 1) return {Place::Kind::Region, candidates[0], {}};
       }
-    if (candidates.size() == 1) return {Place::Kind::Region, candidates[0], {}};
     return {};
   }
 

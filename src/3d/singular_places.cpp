@@ -122,23 +122,28 @@ bool seem_singular(const std::vector<const FilteredFunction<3>*>& surfaces, cons
   return false;
 }
 
-std::vector<bool> in_rows(const std::vector<Box<3>>& boxes) {
+std::vector<bool> in_rows(const std::vector<Box<3>>& boxes, const std::vector<Box<3>>& known) {
   constexpr double kLength = 8;  // of a row, in widths of its boxes
-  const std::vector<int> component = box_components(boxes);
+  std::vector<Box<3>> all = boxes;
+  all.insert(all.end(), known.begin(), known.end());
+  const std::vector<int> component = box_components(all);
   struct Extent {
     std::optional<Box<3>> hull;
     double widest = 0;
+    bool is_known = false;
   };
-  std::vector<Extent> extents(boxes.size());
+  std::vector<Extent> extents(all.size());
+  for (std::size_t k = boxes.size(); k < all.size(); ++k)
+    extents[static_cast<std::size_t>(component[k])].is_known = true;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     Extent& extent = extents[static_cast<std::size_t>(component[k])];
     extent.hull = extent.hull ? hull(*extent.hull, boxes[k]) : boxes[k];
     extent.widest = std::max(extent.widest, boxes[k].largest_width());
   }
   std::vector<bool> result;
-  for (const int c : component) {
-    const Extent& extent = extents[static_cast<std::size_t>(c)];
-    result.push_back(extent.hull->largest_width() >= kLength * extent.widest);
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const Extent& extent = extents[static_cast<std::size_t>(component[k])];
+    result.push_back(extent.is_known || extent.hull->largest_width() >= kLength * extent.widest);
   }
   return result;
 }

@@ -15,7 +15,7 @@ namespace encase {
 bool seem_singular(const std::vector<const FilteredFunction<3>*>& surfaces, const Box<3>& box);
 
 /// For every box whether it is one of a row of boxes that touch: whether their hull is several
-/// times as wide as the widest of them.
-std::vector<bool> in_rows(const std::vector<Box<3>>& boxes);
+/// times as wide as the widest of them, or they touch one of the rows that are known.
+std::vector<bool> in_rows(const std::vector<Box<3>>& boxes, const std::vector<Box<3>>& known);
 
 }  // namespace encase

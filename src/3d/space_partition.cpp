@@ -63,6 +63,7 @@ struct SpacePartition::State {
   std::vector<AbsenceCertificate> absences;
   std::vector<GraphCertificate> graphs;
   std::vector<PairCertificate> pairs;
+  std::vector<Box<3>> rows;  ///< of leaves that were left
   std::vector<Bernstein<3>> pool;
   std::int64_t tests = 0;
   int visited = 0;
@@ -376,11 +377,13 @@ void SpacePartition::State::leave_rows(std::vector<Item>* open) {
     places.push_back(k);
     boxes.push_back(box);
   }
-  const std::vector<bool> left = in_rows(boxes);
+  if (boxes.empty()) return;
+  const std::vector<bool> left = in_rows(boxes, rows);
   for (std::size_t k = 0; k < left.size(); ++k) {
     if (!left[k]) continue;
     Item& item = (*open)[places[k]];
     leaves[static_cast<std::size_t>(item.leaf)].in_row = true;
+    rows.push_back(boxes[k]);
     settle(item, CellState::Undecided);
     item.leaf = -1;
   }

@@ -273,6 +273,32 @@ TEST(SpaceArrangement, OfRandomSmallSpheresIsATree) {
   }
 }
 
+/// Two points of cells with several regions of the same signs, from which every straight way to the
+/// cell's boundary meets a surface: what it crosses tells the region.
+TEST(SpaceArrangement, PointsWithoutAFreeWayAreLocated) {
+  RandomOptions random;
+  random.degree = 2;
+  random.count = 3;
+  random.seed = 3;
+  std::vector<NamedSurface> surfaces;
+  for (const Polynomial<3>& f : random_polynomials<3>(random)) surfaces.push_back({"s", f});
+  const auto e = encase(surfaces, make_box({-1, -1, -1}, {1, 1, 1}).value());
+  ASSERT_TRUE(e);
+  const auto arrangement = arrange(e.value());
+  ASSERT_TRUE(arrangement);
+  const RegionLocator locator(e.value(), arrangement.value());
+  for (const Point<3>& p :
+       {Point<3>{-0.30726218157654905, 0.11959127308779727, -0.27739462068311671},
+        Point<3>{-0.20326053281844125, 0.15693728504235649, -0.15089273464264386}}) {
+    const RationalPoint<3> point{Rational(p[0]), Rational(p[1]), Rational(p[2])};
+    const auto place = locator.locate(point);
+    ASSERT_EQ(place.kind, RegionLocator::Place::Kind::Region);
+    for (std::size_t s = 0; s < surfaces.size(); ++s)
+      EXPECT_EQ(arrangement.value().regions[place.region].signs[s],
+                sign_of(sgn(surfaces[s].function.polynomial()(point))));
+  }
+}
+
 TEST(SpaceArrangement, PointsAreLocatedByTheirSigns) {
   const Arranged a = arranged({kSphere, "z-x^2+1/2", "x+y+z"}, 2);
   const RegionLocator locator(a.encasement, a.arrangement);

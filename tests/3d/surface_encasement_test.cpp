@@ -296,5 +296,21 @@ TEST(SurfaceEncasement, ADenominatorMayBeNegative) {
   }
 }
 
+/// A triple point on the region's boundary is found, since the region used is larger, and told to
+/// be there.
+TEST(SurfaceEncasement, TriplePointsAreLocatedInTheRegionAsked) {
+  const auto e = encase({surface("a", "x+y-1"), surface("b", "x-y"), surface("c", "z*(z-1/3)")},
+                        make_box({0, 0, 0}, {1, 1, 1}).value());
+  ASSERT_TRUE(e);
+  ASSERT_EQ(e.value().triple_points.size(), 2u);
+  for (const TriplePoint& point : e.value().triple_points)
+    EXPECT_EQ(point.location, point.point[2] < 0.1 ? Location::OnBoundary : Location::Inside);
+  const Verification proof = verify(e.value());
+  EXPECT_TRUE(proof.ok()) << proof.objections.front();
+  SurfaceEncasement wrong = e.value();
+  wrong.triple_points[0].location = Location::Outside;
+  EXPECT_FALSE(verify(wrong).ok());
+}
+
 }  // namespace
 }  // namespace encase
