@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "3d/triangle_bounds.hpp"
 #include "encase/surface_mesh.hpp"
@@ -61,10 +62,14 @@ std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
   const FilteredFunction<3> function(e.surfaces[mesh.surface].function);
   const SurfaceBounds bounds(function, e.region_used.bounding_box().largest_width());
   Kernel kernel;
+  SurfaceModels models(bounds, kernel);
+  std::vector<double> sizes;
+  for (const Point<3>& point : mesh.points) sizes.push_back(size_at(bounds, point));
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const auto& [p, q, r] = mesh.triangles[k];
     const TriangleBounds proved = bound_triangle(
-        bounds, {mesh.points[p], mesh.points[q], mesh.points[r]}, mesh.tolerance, kernel);
+        models, {{mesh.points[p], mesh.points[q], mesh.points[r]}, {sizes[p], sizes[q], sizes[r]}},
+        mesh.tolerance);
     if (!(proved.distance <= mesh.distances[k]))
       return "the distance of " + triangle_name(k) + " is not proved";
     if (!(proved.angle <= mesh.angles[k]))

@@ -117,9 +117,9 @@ std::vector<int> FacetLines::along(const FacetEdge& edge) const {
   return points;
 }
 
-int FacetLines::divide(const std::pair<int, int>& segment) {
+FacetLines::Division FacetLines::divide(const std::pair<int, int>& segment) {
   const auto found = of_segment_.find(ascending(segment.first, segment.second));
-  if (found == of_segment_.end()) return -1;
+  if (found == of_segment_.end()) return {};
   const int number = found->second;
   Line& line = lines_[number];
   for (std::size_t k = 0; k + 1 < line.points.size(); ++k)
@@ -129,9 +129,9 @@ int FacetLines::divide(const std::pair<int, int>& segment) {
       of_segment_.erase(found);
       for (const std::size_t i : {k, k + 1})
         of_segment_[ascending(line.points[i], line.points[i + 1])] = number;
-      return number;
+      return {number, middle};
     }
-  return -1;
+  return {};
 }
 
 }  // namespace encase

@@ -26,8 +26,13 @@ class FacetLines {
   int line(const FacetEdge& edge) const;
   int count() const { return static_cast<int>(lines_.size()); }
 
-  /// Puts a point between two that follow each other; gives the line's number.
-  int divide(const std::pair<int, int>& segment);
+  /// Puts a point between two that follow each other; gives the line's number, or -1, and the
+  /// point.
+  struct Division {
+    int line = -1;
+    int middle = -1;
+  };
+  Division divide(const std::pair<int, int>& segment);
 
  private:
   struct Line {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "2d/ear_cutting.hpp"
 #include "3d/space_vectors.hpp"
@@ -24,7 +25,13 @@ double cotangent(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
 int PatchMesh::add(int id) {
   ids_.push_back(id);
   coordinates_.push_back(chart_.coordinates(points_[id]));
+  sizes_.push_back(size_at(surface_, points_[id]));
   return static_cast<int>(ids_.size()) - 1;
+}
+
+Corners PatchMesh::corners_of(const Triangle& triangle) const {
+  const auto& [a, b, c] = triangle.corners;
+  return {{at(a), at(b), at(c)}, {sizes_[a], sizes_[b], sizes_[c]}};
 }
 
 void PatchMesh::join_neighbours() {
@@ -99,7 +106,8 @@ bool PatchMesh::lift(const FieldChart::Line& line, double guess, Point<3>* point
     const double move = f.value / slope;
     t -= move;
     if (!std::isfinite(t)) return false;
-    if (std::fabs(move) < 0x1p-30 * goal_.least_length) break;
+    // The next move is about the square of this one.
+    if (std::fabs(move) < 0x1p-8 * goal_.least_length) break;
   }
   *point = line.at + t * line.along;
   if (!graph_.box.contains(*point)) return false;
@@ -159,6 +167,7 @@ bool PatchMesh::split(int t, int edge, std::vector<int>* changed) {
     points_.pop_back();
     ids_.pop_back();
     coordinates_.pop_back();
+    sizes_.pop_back();
     return false;
   }
   const int beyond_bc = triangles_[t].neighbours[(edge + 1) % 3];
@@ -239,7 +248,7 @@ void PatchMesh::divide(int t, std::vector<int>* changed) {
   triangles_[t].given_up = true;
   if (most < goal_.least_length) return;
   // Flat triangles beget flat ones: what is around them must be divided, or the boundary.
-  constexpr double kFlat = 0.02;
+  constexpr double kFlat = 0.001;
   const Point<3>& first = at(triangles_[t].corners[0]);
   const Point<3> doubled_area =
       cross(at(triangles_[t].corners[1]) - first, at(triangles_[t].corners[2]) - first);
@@ -252,16 +261,63 @@ void PatchMesh::divide(int t, std::vector<int>* changed) {
   split(t, longest, changed);
 }
 
-void PatchMesh::refine() {
+/// The triangle a b c on an edge a b of the boundary becomes a m c and m b c.
+bool PatchMesh::divide_boundary(const std::map<std::pair<int, int>, int>& middles) {
+  std::vector<int> changed;
+  for (int t = 0; t < static_cast<int>(triangles_.size()); ++t)
+    for (int edge = 0; edge < 3;) {
+      const int a = triangles_[t].corners[edge], b = triangles_[t].corners[(edge + 1) % 3],
+                c = triangles_[t].corners[(edge + 2) % 3];
+      const auto middle = triangles_[t].neighbours[edge] < 0
+                              ? middles.find(std::minmax(ids_[a], ids_[b]))
+                              : middles.end();
+      if (middle == middles.end()) {
+        ++edge;
+        continue;
+      }
+      const int m = add(middle->second);
+      if (!positive(a, m, c) || !positive(m, b, c)) return false;
+      const int beyond_bc = triangles_[t].neighbours[(edge + 1) % 3];
+      const int beyond_ca = triangles_[t].neighbours[(edge + 2) % 3];
+      const int t2 = static_cast<int>(triangles_.size());
+      triangles_[t] = {{a, m, c}, {-1, t2, beyond_ca}, {}, false};
+      triangles_.push_back({{m, b, c}, {-1, beyond_bc, t}, {}, false});
+      replace_neighbour(beyond_bc, t, t2);
+      changed.insert(changed.end(), {t, t2});
+      edge = 0;
+    }
+  std::vector<std::pair<int, int>> boundary;
+  for (const auto& [a, b] : boundary_) {
+    const auto middle = middles.find(std::minmax(a, b));
+    if (middle == middles.end()) {
+      boundary.emplace_back(a, b);
+    } else {
+      boundary.emplace_back(a, middle->second);
+      boundary.emplace_back(middle->second, b);
+    }
+  }
+  boundary_.swap(boundary);
+  std::vector<int> flipped;
+  make_delaunay(std::move(changed), &flipped);
+  return true;
+}
+
+void PatchMesh::refine(int most) {
+  too_long_.clear();
   std::vector<int> work;
-  for (std::size_t t = 0; t < triangles_.size(); ++t) work.push_back(static_cast<int>(t));
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    triangles_[t].given_up = false;
+    work.push_back(static_cast<int>(t));
+  }
+  const auto good = [&](const TriangleBounds& bounds) {
+    return bounds.distance <= goal_.tolerance && bounds.angle <= goal_.angle;
+  };
   for (std::size_t next = 0; next < work.size(); ++next) {
     Triangle& t = triangles_[work[next]];
-    if (t.given_up || std::isfinite(t.bounds.distance)) continue;
-    t.bounds = bound_triangle(surface_, {at(t.corners[0]), at(t.corners[1]), at(t.corners[2])},
-                              goal_.tolerance, kernel_);
-    if (t.bounds.distance <= goal_.tolerance && t.bounds.angle <= goal_.angle) continue;
-    if (static_cast<int>(triangles_.size()) >= goal_.most_triangles) break;
+    if (t.given_up || good(t.bounds)) continue;
+    t.bounds = bound_triangle(models_, corners_of(t), goal_.tolerance);
+    if (good(t.bounds)) continue;
+    if (static_cast<int>(triangles_.size()) >= most) break;
     std::vector<int> changed;
     divide(work[next], &changed);
     work.insert(work.end(), changed.begin(), changed.end());

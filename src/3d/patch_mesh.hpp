@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,6 @@ struct MeshGoal {
   double tolerance = 0;
   double angle = 0;
   double least_length = 0;  ///< edges shorter than this are not divided
-  int most_triangles = 0;
 };
 
 /// Triangles of one patch of a surface. Corners are places in a list of points shared with other
@@ -29,24 +29,27 @@ class PatchMesh {
     bool given_up = false;
   };
 
-  /// `points` is added to; all are to outlive this. The lines of the chart meet the surface at most
-  /// once in the box of the certificate.
-  PatchMesh(const FieldChart& chart, const GraphCertificate& graph, const SurfaceBounds& surface,
-            const MeshGoal& goal, std::vector<Point<3>>* points, Kernel& kernel)
+  /// `points` is added to; all but the chart are to outlive this. The lines of the chart meet the
+  /// surface at most once in the box of the certificate.
+  PatchMesh(const FieldChart& chart, const GraphCertificate& graph, SurfaceModels& models,
+            const MeshGoal& goal, std::vector<Point<3>>* points)
       : chart_(chart),
         graph_(graph),
-        surface_(surface),
+        models_(models),
+        surface_(models.surface()),
         goal_(goal),
-        points_(*points),
-        kernel_(kernel) {}
+        points_(*points) {}
 
   /// Triangles between the points of a closed boundary, in its order.
   bool fill(const std::vector<int>& boundary);
   /// An octahedron around the centre of the field. False if its corners are not found.
   bool surround(const Box<3>& cell);
+  /// Puts points on edges of the boundary, which are given by their ends, ascending. False if the
+  /// triangles there would be turned over: then nothing else is to be asked of this.
+  bool divide_boundary(const std::map<std::pair<int, int>, int>& middles);
   /// Divides triangles until they meet the goal, as far as that is possible without new points on
-  /// the boundary.
-  void refine();
+  /// the boundary and with no more than `most` of them.
+  void refine(int most);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
   /// A corner's place in the list of points.
@@ -56,6 +59,7 @@ class PatchMesh {
 
  private:
   int add(int id);
+  Corners corners_of(const Triangle& triangle) const;
   const Point<3>& at(int corner) const { return points_[ids_[corner]]; }
   bool positive(int a, int b, int c) const {
     return chart_.positive(coordinates_[a], coordinates_[b], coordinates_[c]);
@@ -71,13 +75,14 @@ class PatchMesh {
   int edge_towards(int triangle, int neighbour) const;
   void replace_neighbour(int triangle, int before, int after);
 
-  const FieldChart& chart_;
+  FieldChart chart_;
   const GraphCertificate& graph_;
+  SurfaceModels& models_;
   const SurfaceBounds& surface_;
   const MeshGoal& goal_;
   std::vector<Point<3>>& points_;
-  Kernel& kernel_;
   std::vector<int> ids_;
+  std::vector<double> sizes_;  ///< bounds of |f| at the corners
   std::vector<Point<3>> coordinates_;
   std::vector<Triangle> triangles_;
   std::vector<std::pair<int, int>> boundary_;  ///< its edges, by the places of their points

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "common/bernstein.hpp"
 
@@ -13,6 +14,27 @@ namespace {
 Interval range(const Bernstein<3>& net) {
   const auto [least, largest] = std::minmax_element(net.b.begin(), net.b.end());
   return Interval(*least, *largest) + Interval(-net.radius, net.radius);
+}
+
+/// The value in the middle of the cube. The weights add up to 1; a weight passes two
+/// roundings a degree, and a term then three products, and sums as many as there are coefficients.
+Interval middle(const Bernstein<3>& net) {
+  std::array<std::vector<double>, 3> weights;
+  for (int i = 0; i < 3; ++i) {
+    const int n = net.degree[i];
+    double weight = std::ldexp(1.0, -n);
+    for (int k = 0; k <= n; weight *= static_cast<double>(n - k) / (k + 1), ++k)
+      weights[i].push_back(weight);
+  }
+  double sum = 0;
+  std::size_t at = 0;
+  for (const double x : weights[0])
+    for (const double y : weights[1])
+      for (const double z : weights[2]) sum += x * y * z * net.b[at++];
+  const double roundings =
+      8.0 * (8 + net.degree[0] + net.degree[1] + net.degree[2]) + static_cast<double>(net.b.size());
+  const double error = net.radius + roundings * 0x1p-52 * largest_coefficient(net);
+  return Interval(sum) + Interval(-error, error);
 }
 
 }  // namespace
@@ -44,6 +66,7 @@ Interval SurfaceBounds::value(const Point<3>& point, int bits) const {
 /// A net with the factors that take derivatives in its coordinates to those in input coordinates.
 struct SurfaceBounds::Net {
   Bernstein<3> net;
+  Point<3> center;
   IntervalVector per_unit;
 
   Bernstein<3> derivative(const Bernstein<3>& of, int axis) const {
@@ -90,7 +113,8 @@ SurfaceBounds::Net SurfaceBounds::expand(const Box<3>& box, int bits, Kernel& ke
       large.hi[i] = box.hi[i] + missing;
     }
     // The net's coordinates have a half width that is this one up to roundings (Centered).
-    const double half = centered(large.lo[i], large.hi[i]).half;
+    const auto [center, half, exact] = centered(large.lo[i], large.hi[i]);
+    result.center[i] = center;
     result.per_unit[i] = Interval(1) / Interval(half * (1 - 0x1p-48), half * (1 + 0x1p-48));
   }
   f_->expand(large, f_->degree(), bits, kernel, &result.net);
@@ -116,6 +140,37 @@ DerivativeRanges SurfaceBounds::derivatives(const Box<3>& box, int bits, Kernel&
       result.second[i][j] = result.second[j][i] =
           range(f.derivative(slope, j)) * (f.per_unit[i] * f.per_unit[j]);
   }
+  return result;
+}
+
+/// e is what the net's radius allows for: docs/error-bounds.md (sections 4 and 14) bounds its
+/// derivatives by those of a net of such coefficients.
+ModelDerivatives SurfaceBounds::model(const Box<3>& box, Kernel& kernel) const {
+  Net f = expand(box, Kernel::kDoubleBits, kernel);
+  const double radius = f.net.radius, n = f_->degree();
+  f.net.radius = 0;
+  ModelDerivatives result;
+  result.center = f.center;
+  double steepest = 0;
+  for (int i = 0; i < 3; ++i) {
+    steepest = std::max(steepest, f.per_unit[i].hi);
+    const Bernstein<3> slope = f.derivative(f.net, i);
+    result.first[i] = middle(slope) * f.per_unit[i];
+    for (int j = i; j < 3; ++j) {
+      const Bernstein<3> bend = f.derivative(slope, j);
+      const Interval per_unit = f.per_unit[i] * f.per_unit[j];
+      result.second[i][j] = result.second[j][i] = middle(bend) * per_unit;
+      for (int k = j; k < 3; ++k) {
+        const Interval third = range(f.derivative(bend, k)) * (per_unit * f.per_unit[k]);
+        for (const auto& [a, b, c] : {std::array{i, j, k}, {j, k, i}, {k, i, j}}) {
+          result.third[a][b][c] = result.third[a][c][b] = third;
+        }
+      }
+    }
+  }
+  constexpr double kUp = 1 + 0x1p-20;
+  result.slope_error = n * radius * steepest * kUp;
+  result.bend_error = n * n * radius * steepest * steepest * kUp;
   return result;
 }
 

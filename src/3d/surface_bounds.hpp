@@ -29,6 +29,16 @@ struct DerivativeRanges {
   Interval second_along(const IntervalVector& u) const;
 };
 
+/// A function f = p + e on a box: derivatives of p at the box's centre, the ranges of its third
+/// ones on the box, and bounds of every first and second derivative of e there.
+struct ModelDerivatives {
+  Point<3> center;
+  IntervalVector first;
+  std::array<IntervalVector, 3> second;
+  std::array<std::array<IntervalVector, 3>, 3> third;
+  double slope_error = 0, bend_error = 0;
+};
+
 /// The box with every side moved outward by at least `by`.
 Box<3> inflated(const Box<3>& box, double by);
 
@@ -47,6 +57,7 @@ class SurfaceBounds {
   /// What derivatives are on the box, and first ones only.
   DerivativeRanges derivatives(const Box<3>& box, int bits, Kernel& kernel) const;
   IntervalVector gradient(const Box<3>& box, int bits, Kernel& kernel) const;
+  ModelDerivatives model(const Box<3>& box, Kernel& kernel) const;
 
  private:
   struct Net;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <memory>
 #include <set>
@@ -30,7 +31,11 @@ class Mesher {
     goal_.least_length = 0x1p-20 * size;
     functions_.reserve(encasement.surfaces.size());
     for (const Surface& surface : encasement.surfaces) functions_.emplace_back(surface.function);
-    for (const auto& function : functions_) bounds_.emplace_back(function, size);
+    bounds_.reserve(functions_.size());
+    for (const auto& function : functions_) {
+      bounds_.emplace_back(function, size);
+      models_.emplace_back(bounds_.back(), kernel_);
+    }
     lines_ = std::make_unique<FacetLines>(encasement, functions_, options.tolerance, options.angle,
                                           &points_);
     collect_patches();
@@ -59,9 +64,9 @@ class Mesher {
     const GraphCertificate* graph = nullptr;
     bool stale = true;
     bool failed = false;
-    std::vector<std::array<int, 3>> triangles;
-    std::vector<TriangleBounds> bounds;
-    std::vector<std::pair<int, int>> too_long;
+    std::unique_ptr<PatchMesh> mesh;
+    /// Points to be put between two points of its boundary, which are given ascending.
+    std::map<std::pair<int, int>, int> middles;
   };
 
   bool cancelled(double done) const {
@@ -95,10 +100,16 @@ class Mesher {
 
   void make(Patch* patch) {
     patch->stale = false;
-    left_ += static_cast<int>(patch->triangles.size());
-    patch->triangles.clear();
-    patch->bounds.clear();
-    patch->too_long.clear();
+    const int before = patch->mesh ? static_cast<int>(patch->mesh->triangles().size()) : 0;
+    if (!patch->mesh || !patch->mesh->divide_boundary(patch->middles)) begin(patch);
+    patch->middles.clear();
+    if (patch->failed) return;
+    patch->mesh->refine(std::max(left_ + before, 0));
+    left_ += before - static_cast<int>(patch->mesh->triangles().size());
+  }
+
+  /// Anew, between the points on its boundary.
+  void begin(Patch* patch) {
     std::vector<int> boundary;
     std::vector<Point<3>> corners, normals;
     for (const FacetEdge& edge : patch->patch->loop)
@@ -109,34 +120,30 @@ class Mesher {
       }
     const FieldChart chart =
         boundary.empty() ? FieldChart(*patch->graph) : FieldChart(*patch->graph, corners, normals);
-    goal_.most_triangles = std::max(left_, 0);
-    PatchMesh mesh(chart, *patch->graph, bounds_[patch->patch->surface], goal_, &points_, kernel_);
-    patch->failed = !(boundary.empty() ? mesh.surround(encasement_.cells[patch->cell].box)
-                                       : mesh.fill(boundary));
-    if (patch->failed) return;
-    mesh.refine();
-    for (const PatchMesh::Triangle& t : mesh.triangles()) {
-      patch->triangles.push_back(
-          {mesh.point(t.corners[0]), mesh.point(t.corners[1]), mesh.point(t.corners[2])});
-      patch->bounds.push_back(t.bounds);
-    }
-    patch->too_long = mesh.too_long();
-    left_ -= static_cast<int>(patch->triangles.size());
+    patch->mesh = std::make_unique<PatchMesh>(chart, *patch->graph, models_[patch->patch->surface],
+                                              goal_, &points_);
+    patch->failed = !(boundary.empty() ? patch->mesh->surround(encasement_.cells[patch->cell].box)
+                                       : patch->mesh->fill(boundary));
   }
 
   /// Where a patch has edges of its boundary that are too long; false if none has.
   bool divide_lines() {
     std::set<std::pair<int, int>> segments;
-    for (const Patch& patch : patches_)
-      for (const auto& [a, b] : patch.too_long)
+    for (const Patch& patch : patches_) {
+      if (patch.failed) continue;
+      for (const auto& [a, b] : patch.mesh->too_long())
         if (length(points_[a] - points_[b]) >= goal_.least_length)
           segments.insert({std::min(a, b), std::max(a, b)});
+    }
     bool divided = false;
     for (const auto& segment : segments) {
-      const int line = lines_->divide(segment);
+      const auto [line, middle] = lines_->divide(segment);
       if (line < 0) continue;
       divided = true;
-      for (const int patch : users_[line]) patches_[patch].stale = true;
+      for (const int patch : users_[line]) {
+        patches_[patch].stale = !patches_[patch].failed;
+        patches_[patch].middles.emplace(segment, middle);
+      }
     }
     return divided && left_ > 0;
   }
@@ -151,10 +158,11 @@ class Mesher {
     for (const Patch& patch : patches_) {
       if (patch.patch->surface != surface) continue;
       mesh.complete = mesh.complete && !patch.failed;
-      for (std::size_t k = 0; k < patch.triangles.size(); ++k) {
+      if (patch.failed) continue;
+      for (const PatchMesh::Triangle& t : patch.mesh->triangles()) {
         std::array<int, 3> triangle;
         for (int i = 0; i < 3; ++i) {
-          const int p = patch.triangles[k][i];
+          const int p = patch.mesh->point(t.corners[i]);
           const auto [place, is_new] = number.emplace(p, static_cast<int>(mesh.points.size()));
           if (is_new) {
             mesh.points.push_back(points_[p]);
@@ -165,10 +173,10 @@ class Mesher {
         for (int i = 0; i < 3; ++i) edges.insert(std::minmax(triangle[i], triangle[(i + 1) % 3]));
         mesh.triangles.push_back(triangle);
         mesh.cells.push_back(patch.cell);
-        mesh.distances.push_back(patch.bounds[k].distance);
-        mesh.angles.push_back(patch.bounds[k].angle);
-        mesh.distance = std::max(mesh.distance, patch.bounds[k].distance);
-        mesh.angle = std::max(mesh.angle, patch.bounds[k].angle);
+        mesh.distances.push_back(t.bounds.distance);
+        mesh.angles.push_back(t.bounds.angle);
+        mesh.distance = std::max(mesh.distance, t.bounds.distance);
+        mesh.angle = std::max(mesh.angle, t.bounds.angle);
       }
     }
     mesh.euler = static_cast<int>(mesh.points.size()) - static_cast<int>(edges.size()) +
@@ -184,6 +192,7 @@ class Mesher {
   Kernel kernel_;
   std::vector<FilteredFunction<3>> functions_;
   std::vector<SurfaceBounds> bounds_;
+  std::deque<SurfaceModels> models_;
   std::vector<Point<3>> points_;  ///< of all patches and lines
   std::unique_ptr<FacetLines> lines_;
   std::vector<Patch> patches_;

@@ -8,48 +8,56 @@
 
 namespace encase {
 
-TriangleBounds bound_triangle(const SurfaceBounds& f, const std::array<Point<3>, 3>& corners,
-                              double reach, Kernel& kernel) {
+TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach) {
   constexpr double kUp = 1 + 0x1p-40;
   TriangleBounds result;
-  const auto& [p, q, r] = corners;
-  const Point<3> normal = unit(cross(q - p, r - p));
+  const auto& [p, q, r] = corners.points;
+  const Point<3> area = cross(q - p, r - p), normal = unit(area);
   if (!(length(normal) > 0.5)) return result;
   const double longest = std::max({length(q - p), length(r - q), length(p - r)}) * kUp;
-  const Box<3> box =
-      inflated(hull(hull(Box<3>{p, p}, {q, q}), {r, r}), std::min(reach, longest) * kUp);
-  const DerivativeRanges d = f.derivatives(box, Kernel::kDoubleBits, kernel);
-
   // The basis is that of the plane up to rounding, relative to the triangle's shape: what is off
   // tilts directions by `tilt` at most.
-  const double height = length(cross(q - p, r - p)) / longest;
-  const double tilt = 0x1p-48 * longest / height;
+  const double tilt = 0x1p-48 * longest * longest / length(area);
   if (!(tilt < 0x1p-10)) return result;
   const auto basis = across(normal);
   const IntervalVector u = exactly(basis[0]), v = exactly(basis[1]), n = exactly(normal);
-  const double largest =
-      std::sqrt(3.0) * kUp *
-      std::max({magnitude(d.first[0]), magnitude(d.first[1]), magnitude(d.first[2])});
-  const double mu = dot(d.first, n).lo - tilt * largest;
-  if (!(mu > 0)) return result;
-  const double along = std::hypot(magnitude(dot(d.first, u)), magnitude(dot(d.first, v))) * kUp;
-  result.angle = std::atan((along + tilt * largest) / mu) * kUp;
 
-  const auto second = [&](const IntervalVector& a, const IntervalVector& b) {
+  const double way = std::min(reach, longest) * kUp;
+  const Box<3> box = inflated(hull(hull(Box<3>{p, p}, {q, q}), {r, r}), way);
+  const SurfaceModel& model = f.around(box);
+  const std::array<IntervalVector, 3> bends = model.second(box);
+  const auto bend = [&](const IntervalVector& a, const IntervalVector& b) {
     Interval sum(0);
-    for (int i = 0; i < 3; ++i) sum = sum + dot(d.second[i], a) * b[i];
-    return magnitude(sum);
+    for (int i = 0; i < 3; ++i) sum = sum + dot(bends[i], a) * b[i];
+    return sum;
   };
-  const double uv = second(u, v);
-  double whole = 0;  // bounds the norm of all second derivatives
-  for (const IntervalVector& row : d.second)
-    for (const Interval& entry : row) whole += magnitude(entry);
-  const double h =
-      (std::hypot(std::hypot(second(u, u), second(v, v)), std::sqrt(2.0) * uv) + 4 * tilt * whole) *
-      kUp;
-  double m = 0;
-  for (const Point<3>& corner : corners)
-    m = std::max(m, magnitude(f.value(corner, Kernel::kDoubleBits)));
+  const double un = magnitude(bend(u, n)), vn = magnitude(bend(v, n)), nn = magnitude(bend(n, n));
+  // The norm of the 2 x 2 matrix of second derivatives in the plane.
+  const Interval uu = bend(u, u), vv = bend(v, v), half(0.5);
+  const double in_plane = (magnitude(half * (uu + vv)) +
+                           std::hypot(magnitude(half * (uu - vv)), magnitude(bend(u, v)))) *
+                          kUp;
+  const double tilted = 4 * tilt * (2 * in_plane + nn + 2 * std::hypot(un, vn)) * kUp;
+
+  double up = std::numeric_limits<double>::infinity(), along = 0, largest = 0, m = 0, sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const IntervalVector slope = model.gradient(corners.points[i]);
+    const Interval rise = dot(slope, n);
+    const double aside = std::hypot(magnitude(dot(slope, u)), magnitude(dot(slope, v)));
+    up = std::min(up, rise.lo);
+    along = std::max(along, aside);
+    largest = std::max(largest, magnitude(rise));
+    m = std::max(m, corners.sizes[i]);
+    sum += rise.lo + aside + corners.sizes[i];
+  }
+  if (!std::isfinite(sum)) return result;
+  const double between = (model.third() * longest * longest / 6 + 2 * model.slope_error()) * kUp;
+  along = (along + between + (std::hypot(un, vn) + tilted) * way) * kUp;
+  largest = (largest + along + between + (nn + tilted) * way) * kUp;
+  const double mu = up - between - ((nn + tilted) * way + tilt * largest) * kUp;
+  if (!(mu > 0)) return result;
+  result.angle = std::atan((along + tilt * largest) / mu) * kUp;
+  const double h = in_plane + tilted + 4 * model.bend_error();
   const double distance = (m + h * longest * longest / 6) / mu * kUp * kUp;
   if (distance <= std::min(reach, longest)) result.distance = distance;
   return result;
