@@ -323,7 +323,8 @@ bool SpacePartition::State::certify(Item& item) {
 /// surface's function seems to have no values at all; -1: none.
 int SpacePartition::State::undefined_surface(const Item& item) const {
   const Box<3>& box = leaves[static_cast<std::size_t>(item.leaf)].box;
-  const bool small = box.largest_width() <= limits.singular_width * root.largest_width();
+  // (Such places are surfaces as a rule: coarser cells than along curves are as many.)
+  const bool small = box.largest_width() <= 4 * limits.singular_width * root.largest_width();
   for (std::size_t a = 0; a < item.size(); ++a) {
     if (std::isfinite(item.nets[a].radius)) continue;
     const int s = item.alive[a];
