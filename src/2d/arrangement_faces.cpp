@@ -90,6 +90,13 @@ std::string nest_faces(const std::vector<std::vector<int>>& at_face, Arrangement
   return queue.size() == a.faces.size() ? "" : "a face has no outer boundary";
 }
 
+/// Whether two faces have the same signs but for that of one curve, which changes.
+bool change_in(int curve, const std::vector<Sign>& left, const std::vector<Sign>& right) {
+  if (left.size() != right.size() || left[curve] != -right[curve]) return false;
+  return std::equal(left.begin(), left.begin() + curve, right.begin()) &&
+         std::equal(left.begin() + curve + 1, left.end(), right.begin() + curve + 1);
+}
+
 /// The signs at a corner of the region are computed; a curve's sign changes across its edges, where
 /// it is smooth.
 std::string find_signs(const Encasement& e, const std::vector<std::vector<int>>& at_face,
@@ -123,7 +130,16 @@ std::string find_signs(const Encasement& e, const std::vector<std::vector<int>>&
         queue.push_back(other);
       } while (h != first);
     }
-  return queue.size() + 1 == a.faces.size() ? "" : "a face has no neighbours";
+  if (queue.size() + 1 != a.faces.size()) return "a face has no neighbours";
+  for (int edge = 0; edge < static_cast<int>(a.edges.size()); ++edge) {
+    const auto [left, right] = a.faces_at(edge);
+    const int curve = a.edges[edge].curve;
+    if (curve < 0) continue;
+    if (left == a.outside || right == a.outside ||
+        !change_in(curve, a.faces[left].signs, a.faces[right].signs))
+      return "the faces beside an edge disagree about their signs";
+  }
+  return "";
 }
 
 /// The component of a curve along a half-edge and straight on at crossings, up to the boundary or

@@ -19,7 +19,7 @@ namespace {
 
 /// With so few curves alive, or so few pairs of several that may meet, a box is a leaf.
 constexpr std::size_t kFew = 2;
-constexpr int kFewPairs = 4;
+constexpr int kFewPairs = 2;
 /// So many halvings in a row that took no curve away: four times across either axis.
 constexpr int kInVain = 8;
 /// With more curves a halving counts as long as it takes some away from the other half, and it is

@@ -10,7 +10,7 @@ namespace encase {
 namespace {
 
 constexpr double kMiddle = 0.35;     // where the middle of the projections begins
-constexpr int kMostProjected = 256;  // crossings; of more than twice as many every other, and so on
+constexpr int kMostProjected = 256;  // crossings; of more every other, every third, and so on
 // Of more than two curves: crossings from which on a cell is halved whatever the branches of one
 // curve do.
 constexpr int kManyCrossings = 16;
