@@ -214,8 +214,7 @@ TEST(AnalyticVerify, OtherCurvesThanThoseOfTheInputAreRefused) {
   refused("is not the function of its sources",
           [&](auto& m) { m.curves[0].function = f + c(1, 1000); });
   // The same curve, but who would know.
-  refused("is not the function of its sources",
-          [&](auto& m) { m.curves[0].function = c(2) * f; });
+  refused("is not the function of its sources", [&](auto& m) { m.curves[0].function = c(2) * f; });
   refused("is not that of one curve", [&](auto& m) { m.input[0].function = f * c(2); });
   refused("is not that of one curve", [&](auto& m) {
     m.input.push_back({"more", x() + sin(y())});

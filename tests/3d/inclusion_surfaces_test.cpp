@@ -111,12 +111,12 @@ TEST(InclusionSurfaces, AreMeshedAndTraced) {
   const SurfaceEncasement e =
       encased({inclusions::sphere(), written::polynomial<3>("z-x*y/3-1/9")});
   SurfaceMeshOptions options;
-  options.tolerance = 0.05;
+  options.tolerance = 0.02;
   const auto meshes = mesh(e, options);
   ASSERT_TRUE(meshes) << meshes.error().message;
   EXPECT_EQ(check(meshes.value()[0], e), "");
   EXPECT_EQ(meshes.value()[0].euler, 2);
-  EXPECT_LE(meshes.value()[0].distance, 0.05);
+  EXPECT_LE(meshes.value()[0].distance, 0.02);
   const auto traced = trace(e);
   ASSERT_TRUE(traced);
   EXPECT_TRUE(traced.value().within_tolerance);
@@ -244,12 +244,15 @@ TEST(InclusionSurfaces, NetsHoldTheFunctionAndItsDerivatives) {
   const FilteredFunction<3> f{Function<3>(inclusions::torus())};
   const Polynomial<3> exact = written::polynomial<3>(kTorus);
   Kernel kernel;
-  for (int round = 0; round < 50; ++round) {
+  for (int round = 0; round < 200; ++round) {
     Point<3> center{uniform(), uniform(), uniform()}, half;
     for (double& h : half) h = 0.25 + 0.2 * uniform();
-    const auto& model = f.model(center, half, 2, 53, kernel);
+    const auto& local = f.inclusion().local(center, half, kernel);
+    const auto& model = local.model;
     ASSERT_TRUE(model.exists());
-    const Point<3> s{uniform(), uniform(), uniform()};
+    Point<3> s{uniform(), uniform(), uniform()};
+    if (round % 2 == 0)  // most is lacking at corners
+      for (double& coordinate : s) coordinate = coordinate < 0 ? -1 : 1;
     RationalPoint<3> x;
     for (int i = 0; i < 3; ++i) x[i] = Rational(center[i]) + Rational(half[i]) * Rational(s[i]);
     const auto at = [&](int i, int j, int k) { return model.c[(i * 3 + j) * 3 + k]; };
@@ -260,7 +263,7 @@ TEST(InclusionSurfaces, NetsHoldTheFunctionAndItsDerivatives) {
     slope += at(1, 1, 0) * s[1] + at(1, 0, 1) * s[2];
     EXPECT_LE(std::fabs(exact(x).get_d() - value), model.error * (1 + 1e-9));
     EXPECT_LE(std::fabs(exact.derivative(0)(x).get_d() * half[0] - slope),
-              2 * model.error * (1 + 1e-9));
+              local.slope_error[0] * (1 + 1e-9));
     EXPECT_LE(std::fabs(exact.derivative(0).derivative(0)(x).get_d() * half[0] * half[0] -
                         2 * at(2, 0, 0)),
               2 * model.error * (1 + 1e-9));
