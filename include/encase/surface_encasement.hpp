@@ -200,7 +200,7 @@ struct SurfaceEncasement {
   std::vector<TriplePoint> triple_points;
   /// One a triple of surfaces, but for those of which two are apart in all cells.
   std::vector<TriplePointCover> triple_point_covers;
-  std::vector<CurveCriticalPoints> critical_points;   ///< of a pair for several directions, or none
+  std::vector<CurveCriticalPoints> critical_points;  ///< of a pair for several directions, or none
   std::vector<AbsenceCertificate> absence_certificates;
   std::vector<GraphCertificate> graph_certificates;
   std::vector<PairCertificate> pair_certificates;
