@@ -26,9 +26,9 @@ struct SurfaceMesh {
   /// the triangle, up to `tolerance` from it, larger, in radians. Infinite: nothing is proved.
   std::vector<double> angles;
 
-  double tolerance = 0;          ///< as asked
-  double distance = 0;           ///< the largest one
-  double angle = 0;              ///< the largest one
+  double tolerance = 0;  ///< as asked
+  double distance = 0;   ///< the largest one
+  double angle = 0;      ///< the largest one
   /// Proved: no point of the surface in the region used is farther than this from the mesh, in
   /// input units. Infinite: nothing is proved.
   double distance_to_mesh = std::numeric_limits<double>::infinity();
