@@ -137,13 +137,18 @@ std::string report(const SurfaceEncasement& e) {
 std::string mesh_report(const SurfaceEncasement& e, const std::vector<SurfaceMesh>& meshes) {
   std::string text = "\nmeshes\n";
   auto out = std::back_inserter(text);
-  for (const SurfaceMesh& mesh : meshes)
+  for (const SurfaceMesh& mesh : meshes) {
     fmt::format_to(out,
-                   "  {}: {}, {}, Euler characteristic {}, within {:.2e} and {:.3g} radians{}{}\n",
+                   "  {}: {}, {}, Euler characteristic {}, within {:.2e} and {:.3g} radians{}{}",
                    e.surfaces[mesh.surface].name, counted(mesh.points.size(), "point"),
                    counted(mesh.triangles.size(), "triangle"), mesh.euler, mesh.distance,
                    mesh.angle, mesh.within_tolerance ? "" : ", which is not what was asked",
                    mesh.complete ? "" : ", incomplete");
+    if (std::isfinite(mesh.distance_to_mesh))
+      fmt::format_to(out, "; all of the surface within {:.2e} of it\n", mesh.distance_to_mesh);
+    else
+      text += "; its distance from all of the surface is not proved\n";
+  }
   return text;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,12 @@ struct SurfaceMesh {
   /// the triangle, up to `tolerance` from it, larger, in radians. Infinite: nothing is proved.
   std::vector<double> angles;
 
-  double tolerance = 0;          ///< as asked
-  double distance = 0;           ///< the largest one
-  double angle = 0;              ///< the largest one
+  double tolerance = 0;  ///< as asked
+  double distance = 0;   ///< the largest one
+  double angle = 0;      ///< the largest one
+  /// Proved: no point of the surface in the region used is farther than this from the mesh, in
+  /// input units. Infinite: nothing is proved.
+  double distance_to_mesh = std::numeric_limits<double>::infinity();
   int euler = 0;                 ///< points - edges + triangles
   bool within_tolerance = true;  ///< distances and angles are at most what was asked
   /// Every cell that may meet the surface is certified and has its patches here.
@@ -54,7 +58,7 @@ Result<std::vector<SurfaceMesh>> mesh(const SurfaceEncasement& encasement,
 /// What contradicts a mesh of an encasement's surface, in a sentence; empty if nothing does. Edges
 /// have one or two triangles, which run through it in opposite directions; boundary edges lie on
 /// the region's boundary or next to cells that are not certified; Euler's characteristic is that of
-/// the patches; and every distance and angle is proved again.
+/// the patches; and all distances, both ways, and angles are proved again.
 std::string check(const SurfaceMesh& mesh, const SurfaceEncasement& encasement);
 
 }  // namespace encase

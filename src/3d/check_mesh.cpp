@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "3d/mesh_cover.hpp"
 #include "3d/triangle_bounds.hpp"
 #include "encase/surface_mesh.hpp"
 #include "encase/surface_topology.hpp"
@@ -77,6 +78,9 @@ std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
     if (mesh.distances[k] > mesh.distance || mesh.angles[k] > mesh.angle)
       return triangle_name(k) + " is farther away or steeper than the mesh says";
   }
+  if (std::isfinite(mesh.distance_to_mesh) &&
+      !(cover_distance(mesh, e, models) <= mesh.distance_to_mesh))
+    return "the surface's distance from the mesh is not proved";
   return "";
 }
 

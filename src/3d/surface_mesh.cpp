@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "3d/facet_lines.hpp"
+#include "3d/mesh_cover.hpp"
 #include "3d/patch_mesh.hpp"
 #include "3d/space_vectors.hpp"
 #include "encase/surface_topology.hpp"
@@ -148,7 +149,7 @@ class Mesher {
     return divided && left_ > 0;
   }
 
-  SurfaceMesh assemble(int surface) const {
+  SurfaceMesh assemble(int surface) {
     SurfaceMesh mesh;
     mesh.surface = surface;
     mesh.tolerance = options_.tolerance;
@@ -182,6 +183,7 @@ class Mesher {
     mesh.euler = static_cast<int>(mesh.points.size()) - static_cast<int>(edges.size()) +
                  static_cast<int>(mesh.triangles.size());
     mesh.within_tolerance = mesh.distance <= options_.tolerance && mesh.angle <= options_.angle;
+    mesh.distance_to_mesh = cover_distance(mesh, encasement_, models_[surface]);
     return mesh;
   }
 

@@ -8,59 +8,119 @@
 
 namespace encase {
 
-TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach) {
-  constexpr double kUp = 1 + 0x1p-40;
-  TriangleBounds result;
-  const auto& [p, q, r] = corners.points;
-  const Point<3> area = cross(q - p, r - p), normal = unit(area);
-  if (!(length(normal) > 0.5)) return result;
-  const double longest = std::max({length(q - p), length(r - q), length(p - r)}) * kUp;
-  // The basis is that of the plane up to rounding, relative to the triangle's shape: what is off
-  // tilts directions by `tilt` at most.
-  const double tilt = 0x1p-48 * longest * longest / length(area);
-  if (!(tilt < 0x1p-10)) return result;
-  const auto basis = across(normal);
-  const IntervalVector u = exactly(basis[0]), v = exactly(basis[1]), n = exactly(normal);
+namespace {
 
-  const double way = std::min(reach, longest) * kUp;
-  const Box<3> box = inflated(hull(hull(Box<3>{p, p}, {q, q}), {r, r}), way);
-  const SurfaceModel& model = f.around(box);
-  const std::array<IntervalVector, 3> bends = model.second(box);
-  const auto bend = [&](const IntervalVector& a, const IntervalVector& b) {
+constexpr double kUp = 1 + 0x1p-40;
+
+/// What is known of f over a triangle, as far from it as `way`.
+struct Surroundings {
+  Surroundings(SurfaceModels& f, const Corners& corners, double reach);
+  /// The second derivative in two directions.
+  Interval along(const IntervalVector& a, const IntervalVector& b) const {
     Interval sum(0);
     for (int i = 0; i < 3; ++i) sum = sum + dot(bends[i], a) * b[i];
     return sum;
-  };
-  const double un = magnitude(bend(u, n)), vn = magnitude(bend(v, n)), nn = magnitude(bend(n, n));
-  // The norm of the 2 x 2 matrix of second derivatives in the plane.
-  const Interval uu = bend(u, u), vv = bend(v, v), half(0.5);
-  const double in_plane = (magnitude(half * (uu + vv)) +
-                           std::hypot(magnitude(half * (uu - vv)), magnitude(bend(u, v)))) *
-                          kUp;
-  const double tilted = 4 * tilt * (2 * in_plane + nn + 2 * std::hypot(un, vn)) * kUp;
-
-  double up = std::numeric_limits<double>::infinity(), along = 0, largest = 0, m = 0, sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const IntervalVector slope = model.gradient(corners.points[i]);
-    const Interval rise = dot(slope, n);
-    const double aside = std::hypot(magnitude(dot(slope, u)), magnitude(dot(slope, v)));
-    up = std::min(up, rise.lo);
-    along = std::max(along, aside);
-    largest = std::max(largest, magnitude(rise));
-    m = std::max(m, corners.sizes[i]);
-    sum += rise.lo + aside + corners.sizes[i];
   }
-  if (!std::isfinite(sum)) return result;
-  const double between = (model.third() * longest * longest / 6 + 2 * model.slope_error()) * kUp;
-  along = (along + between + (std::hypot(un, vn) + tilted) * way) * kUp;
-  largest = (largest + along + between + (nn + tilted) * way) * kUp;
-  const double mu = up - between - ((nn + tilted) * way + tilt * largest) * kUp;
-  if (!(mu > 0)) return result;
-  result.angle = std::atan((along + tilt * largest) / mu) * kUp;
+
+  bool known = false;
+  double longest = 0, way = 0;
+  double tilt = 0;                       ///< between the basis and that of the plane, at most
+  IntervalVector u, v, n;                ///< of the plane, and across it
+  std::array<IntervalVector, 3> slopes;  ///< gradients at the corners
+  double between = 0;            ///< on the triangle they differ by this from what is linear
+  double aside = 0, upward = 0;  ///< they change along n by these times the way, in and across it
+  std::array<IntervalVector, 3> bends;  ///< second derivatives
+  double bend = 0;                      ///< bounds the norm of second derivatives
+  double size = 0;                      ///< bounds |f| on the triangle
+};
+
+Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double reach) {
+  const auto& [p, q, r] = corners.points;
+  const Point<3> area = cross(q - p, r - p), normal = unit(area);
+  if (!(length(normal) > 0.5)) return;
+  longest = std::max({length(q - p), length(r - q), length(p - r)}) * kUp;
+  // The basis is that of the plane up to rounding, relative to the triangle's shape.
+  tilt = 0x1p-48 * longest * longest / length(area);
+  if (!(tilt < 0x1p-10)) return;
+  const auto basis = across(normal);
+  u = exactly(basis[0]);
+  v = exactly(basis[1]);
+  n = exactly(normal);
+
+  way = std::min(reach, longest) * kUp;
+  const Box<3> box = inflated(hull(hull(Box<3>{p, p}, {q, q}), {r, r}), way);
+  const SurfaceModel& model = f.around(box);
+  bends = model.second(box);
+  const double turning = std::hypot(magnitude(along(u, n)), magnitude(along(v, n)));
+  const double nn = magnitude(along(n, n));
+  // The norm of the 2 x 2 matrix of second derivatives in the plane.
+  const Interval uu = along(u, u), vv = along(v, v), half(0.5);
+  const double in_plane =
+      magnitude(half * (uu + vv)) + std::hypot(magnitude(half * (uu - vv)), magnitude(along(u, v)));
+  bend = (2 * in_plane + nn + 2 * turning) * kUp;
+  const double tilted = 4 * tilt * bend;
+  aside = (turning + tilted) * kUp;
+  upward = (nn + tilted) * kUp;
+  between = (model.third() * longest * longest / 6 + 2 * model.slope_error()) * kUp;
+
+  double sum = between + bend;
+  for (int i = 0; i < 3; ++i) {
+    slopes[i] = model.gradient(corners.points[i]);
+    size = std::max(size, corners.sizes[i]);
+    sum += corners.sizes[i];
+    for (const Interval& slope : slopes[i]) sum += magnitude(slope);
+  }
   const double h = in_plane + tilted + 4 * model.bend_error();
-  const double distance = (m + h * longest * longest / 6) / mu * kUp * kUp;
-  if (distance <= std::min(reach, longest)) result.distance = distance;
+  size = (size + h * longest * longest / 6) * kUp;
+  known = std::isfinite(sum + size);
+}
+
+}  // namespace
+
+TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach) {
+  TriangleBounds result;
+  const Surroundings s(f, corners, reach);
+  if (!s.known) return result;
+  double up = std::numeric_limits<double>::infinity(), along = 0, largest = 0;
+  for (const IntervalVector& slope : s.slopes) {
+    const Interval rise = dot(slope, s.n);
+    up = std::min(up, rise.lo);
+    along = std::max(along, std::hypot(magnitude(dot(slope, s.u)), magnitude(dot(slope, s.v))));
+    largest = std::max(largest, magnitude(rise));
+  }
+  along = (along + s.between + s.aside * s.way) * kUp;
+  largest = (largest + along + s.between + s.upward * s.way) * kUp;
+  const double mu = up - (s.between + s.upward * s.way + s.tilt * largest) * kUp;
+  if (!(mu > 0)) return result;
+  result.angle = std::atan((along + s.tilt * largest) / mu) * kUp;
+  const double distance = s.size / mu * kUp;
+  if (distance <= std::min(reach, s.longest)) result.distance = distance;
   return result;
+}
+
+/// In the directions W, grad f . W is up to `between` a quadratic form in the barycentric
+/// coordinates of a point of the triangle, at least the least of its Bernstein coefficients; on the
+/// way it changes by second derivatives W . H W.
+double bound_along(SurfaceModels& f, const Corners& corners,
+                   const std::array<Point<3>, 3>& directions, double reach, double moved) {
+  const Surroundings s(f, corners, reach);
+  double up = std::numeric_limits<double>::infinity(), steepest = 0, change = 0;
+  for (int i = 0; i < 3; ++i) {
+    const IntervalVector w = exactly(directions[i]);
+    steepest = std::max(steepest, magnitude(s.slopes[i][0]) + magnitude(s.slopes[i][1]) +
+                                      magnitude(s.slopes[i][2]));
+    for (int j = i; j < 3; ++j) {
+      const IntervalVector x = exactly(directions[j]);
+      up = std::min(up, 0.5 * (dot(s.slopes[i], x) + dot(s.slopes[j], w)).lo);
+      change = std::max(change, magnitude(s.along(w, x)));
+    }
+  }
+  steepest = (steepest + s.between + s.bend * s.way) * kUp;
+  change = (change + 3 * 0x1p-40 * s.bend) * s.way + s.bend * moved;
+  const double mu = up - (s.between + change + 0x1p-40 * steepest) * kUp;
+  const double distance = (s.size + moved * steepest) / mu * kUp + moved;
+  const bool proved = s.known && mu > 0 && distance + 2 * moved <= std::min(reach, s.longest);
+  return proved ? distance : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace encase

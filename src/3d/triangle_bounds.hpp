@@ -42,4 +42,11 @@ inline double size_at(const SurfaceBounds& f, const Point<3>& point) {
 /// point of the triangle along n or -n by m / mu.
 TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach);
 
+/// With unit vectors at the corners, linear between them: from every point of the triangle the
+/// surface is met exactly once as far as this in the vector's direction and in the opposite one,
+/// and f grows along all these ways; also if corners move by up to `moved`, and directions by
+/// roundings. Infinite: that is not proved, or it is beyond the reach.
+double bound_along(SurfaceModels& f, const Corners& corners,
+                   const std::array<Point<3>, 3>& directions, double reach, double moved);
+
 }  // namespace encase

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "3d/mesh_cover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "3d/space_vectors.hpp"
+#include "encased_surfaces.hpp"
+
+namespace encase {
+namespace {
+
+SurfaceMesh mesh_of(const SurfaceEncasement& e, double tolerance) {
+  SurfaceMeshOptions options;
+  options.tolerance = tolerance;
+  return mesh(e, options).value()[0];
+}
+
+double cover(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
+  const FilteredFunction<3> function(e.surfaces[mesh.surface].function);
+  const SurfaceBounds bounds(function, e.region_used.bounding_box().largest_width());
+  Kernel kernel;
+  SurfaceModels models(bounds, kernel);
+  return cover_distance(mesh, e, models);
+}
+
+double distance(const Point<3>& p, const Point<3>& a, const Point<3>& b) {
+  const double t = std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
+  return length(p - (a + t * (b - a)));
+}
+
+double distance(const Point<3>& p, const SurfaceMesh& mesh) {
+  double least = INFINITY;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Point<3>&a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
+    const Point<3> n = unit(cross(b - a, c - a));
+    if (dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 &&
+        dot(cross(a - c, p - c), n) >= 0)
+      least = std::min(least, std::fabs(dot(p - a, n)));
+    least = std::min({least, distance(p, a, b), distance(p, b, c), distance(p, c, a)});
+  }
+  return least;
+}
+
+/// A point of the surface on the way between two, by halving it.
+std::optional<Point<3>> point_between(const FilteredFunction<3>& f, Point<3> p, Point<3> q) {
+  if (!(f.approximate(p) < 0 && f.approximate(q) > 0)) return std::nullopt;
+  for (int step = 0; step < 60; ++step) {
+    const Point<3> middle = 0.5 * (p + q);
+    (f.approximate(middle) < 0 ? p : q) = middle;
+  }
+  return p;
+}
+
+void expect_covered(const SurfaceEncasement& e, double tolerance) {
+  const SurfaceMesh mesh = mesh_of(e, tolerance);
+  EXPECT_EQ(check(mesh, e), "");
+  ASSERT_TRUE(std::isfinite(mesh.distance_to_mesh));
+  const FilteredFunction<3> f(e.surfaces[0].function);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> coordinate(-2, 2);
+  int found = 0;
+  double largest = 0;
+  for (int k = 0; k < 20000 && found < 60; ++k) {
+    const auto any = [&] {
+      return Point<3>{coordinate(random), coordinate(random), coordinate(random)};
+    };
+    const Point<3> from = any(), to = any();
+    const auto p = point_between(f, from, to);
+    if (!p) continue;
+    ++found;
+    largest = std::max(largest, distance(*p, mesh));
+  }
+  EXPECT_EQ(found, 60);
+  EXPECT_LE(largest, mesh.distance_to_mesh);
+  EXPECT_GE(largest, 0.1 * mesh.distance_to_mesh);  // it says something
+}
+
+TEST(MeshCover, HoldsForPointsOfASphere) {
+  expect_covered(encased_surfaces({"x^2+y^2+z^2-1"}, 2), 0.02);
+}
+
+TEST(MeshCover, HoldsUpToTheRegionsBoundary) {
+  expect_covered(encased_surfaces({"z-x*y/3-x/7-1/9"}, 2), 0.02);
+}
+
+TEST(MeshCover, HoldsForTwoSheets) {
+  expect_covered(encased_surfaces({"x^2-y^2-z^2-1/3"}, 2), 0.02);
+}
+
+TEST(MeshCover, HoldsForATorus) {
+  expect_covered(encased_surfaces({"(x^2+y^2+z^2+1-0.16)^2-4*(x^2+y^2)"}, 2), 0.02);
+}
+
+TEST(MeshCover, IsNotClaimedOfWhatLeavesOutATriangle) {
+  const SurfaceEncasement e = encased_surfaces({"x^2+y^2+z^2-1"}, 2);
+  SurfaceMesh bad = mesh_of(e, 0.02);
+  ASSERT_TRUE(std::isfinite(cover(bad, e)));
+  bad.triangles.pop_back();
+  EXPECT_FALSE(std::isfinite(cover(bad, e)));
+}
+
+TEST(MeshCover, IsNotClaimedOfWhatIsFarOffOrFolded) {
+  const SurfaceEncasement e = encased_surfaces({"x^2+y^2+z^2-1"}, 2);
+  const SurfaceMesh good = mesh_of(e, 0.02);
+  SurfaceMesh bad = good;
+  bad.points[5] = 1.3 * bad.points[5];
+  EXPECT_FALSE(std::isfinite(cover(bad, e)));
+  bad = good;
+  // Onto the other side of a neighbour, on the surface.
+  const auto& [p, q, r] = bad.triangles[0];
+  bad.points[p] = unit(bad.points[q] + 0.5 * (bad.points[q] - bad.points[p]));
+  EXPECT_FALSE(std::isfinite(cover(bad, e)));
+}
+
+TEST(MeshCover, IsNotClaimedOfOneSheetTwice) {
+  const SurfaceEncasement e = encased_surfaces({"x^2-y^2-z^2-1/3"}, 2);
+  SurfaceMesh bad = mesh_of(e, 0.02);
+  ASSERT_TRUE(std::isfinite(cover(bad, e)));
+  const auto right = [&](const std::array<int, 3>& t) { return bad.points[t[0]][0] > 0; };
+  std::erase_if(bad.triangles, [&](const auto& t) { return !right(t); });
+  std::vector<Point<3>> points;
+  std::vector<int> number(bad.points.size(), -1);
+  for (auto& t : bad.triangles)
+    for (int& p : t) {
+      if (number[p] < 0) {
+        number[p] = static_cast<int>(points.size());
+        points.push_back(bad.points[p]);
+      }
+      p = number[p];
+    }
+  bad.points = points;
+  EXPECT_FALSE(std::isfinite(cover(bad, e)));
+  const int half = static_cast<int>(points.size());
+  bad.points.insert(bad.points.end(), points.begin(), points.end());
+  const auto once = bad.triangles;
+  for (const auto& [p, q, r] : once) bad.triangles.push_back({p + half, q + half, r + half});
+  EXPECT_FALSE(std::isfinite(cover(bad, e)));
+}
+
+TEST(CheckMesh, ObjectsToADistanceToTheMeshThatIsTooSmall) {
+  const SurfaceEncasement e = encased_surfaces({"x^2+y^2+z^2-1"}, 2);
+  SurfaceMesh bad = mesh_of(e, 0.02);
+  bad.distance_to_mesh *= 0.9;
+  EXPECT_NE(check(bad, e), "");
+}
+
+}  // namespace
+}  // namespace encase
