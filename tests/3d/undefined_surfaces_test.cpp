@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Scene{"crease", "z - abs(x)", [](const auto& p) { return std::fabs(p[0]); }},
                     Scene{"pole_along_a_line", "z - log(x^2 + y^2)",
                           [](const auto& p) { return std::hypot(p[0], p[1]); }}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& scene) { return scene.param.name; });
 
 }  // namespace
 }  // namespace encase
