@@ -98,7 +98,7 @@ TEST(Gaps, AreWhereTheFunctionIsNotAnalytic) {
   const Box<2> root = subdivision_root<2>({{-2, -2}, {2, 2}});
   const auto gaps = [&](const Expression& f) {
     Kernel kernel;
-    return find_gaps(FilteredExpression<2>(f), root, kernel);
+    return find_gaps(FilteredFunction<2>(Function<2>(f)), root, kernel);
   };
   EXPECT_TRUE(gaps(sin(x() * y()) / (c(2) + cos(x()))).empty());
   // A line: one strip; a point: tiny boxes; a diagonal: a chain.
