@@ -19,6 +19,12 @@ struct PairedExtremes {
   std::array<double, 2> lo, hi;
 };
 
+/// Sums over the coefficients of either Chebyshev net, in halves of eight: of all absolute values;
+/// of those that cubics leave out; and of these times the squares of the rows' and lanes' indices.
+struct NetSums {
+  alignas(64) double of[2][4];
+};
+
 /// A system, combined with the rows of a matrix Y.
 struct Preconditioned {
   Matrix<2> y;    ///< the inverse of the mean Jacobian, or its adjugate
@@ -46,6 +52,11 @@ constexpr Coordinates make_coordinates() {
   return c;
 }
 constexpr Coordinates kCoordinates = make_coordinates();
+
+struct alignas(64) Squares {
+  double lane[8];
+};
+constexpr Squares kSquares{{0, 1, 4, 9, 16, 25, 36, 49}};
 
 }  // namespace
 }  // namespace encase
@@ -95,46 +106,101 @@ HWY_INLINE void multiply(const double* matrix, const Row* rows, Row* result) {
   }
 }
 
-/// The cubic nets from two Chebyshev nets: these are evaluated at 4 x 4 nodes (`nodes`: of x,
-/// then of y), and `matrix` turns four values into coefficients.
-void restrict_nets(const double* f, const double* g, const double* nodes, const double* matrix,
-                   double* to, PairedExtremes* extremes) {
-  // Chebyshev's polynomials at all nodes.
-  HWY_ALIGN double weights[8][8];
-  const Row x = Row::load(nodes), twice = x + x;
-  Row before = Row::all(1), last = x;
-  x.store(weights[1]);
-  for (int i = 2; i < 8; ++i) {
-    const Row next = twice * last - before;
-    before = last;
-    last = next;
-    next.store(weights[i]);
-  }
-  // Across rows, at the nodes of x; then across what becomes rows, at those of y.
-  Row t[8], value[4], rows[4];
-  for (int k = 0; k < 4; ++k) {
-    t[k] = Row::load(f);
-    t[4 + k] = Row::load(g);
-    for (int i = 1; i < 8; ++i) {
-      const Row weight = Row::all(weights[i][k]);
-      t[k] = t[k] + Row::load(f + 8 * i) * weight;
-      t[4 + k] = t[4 + k] + Row::load(g + 8 * i) * weight;
-    }
-  }
-  transpose(t);
-  for (int k = 0; k < 4; ++k) {
-    Row sum = t[0];
-    for (int j = 1; j < 8; ++j) sum = sum + t[j] * Row::all(weights[j][4 + k]);
-    value[k] = sum;
-  }
-  multiply(matrix, value, rows);
-  transpose_halves(rows);
-  multiply(matrix, rows, value);
-  for (int i = 0; i < 4; ++i) value[i].store(to + 8 * i);
-  *extremes = range_of_rows(value).extremes();
+/// Chebyshev coefficients of degree 3 across rows, turned into Bernstein ones.
+HWY_INLINE void to_bernstein(Row* c) {
+  const Row third = Row::all(1.0 / 3), five_thirds = Row::all(5.0 / 3), five = Row::all(5);
+  const Row even = c[0] + c[2], odd = c[1] + c[3];
+  const Row inner_even = c[0] - c[2] * five_thirds, inner_odd = c[3] * five - c[1] * third;
+  c[0] = even - odd;
+  c[1] = inner_even + inner_odd;
+  c[2] = inner_even - inner_odd;
+  c[3] = even + odd;
 }
 
-/// The same from cubic nets.
+/// a's lanes 0 to 3, then b's.
+HWY_INLINE Row lower_halves(const Row& a, const Row& b) {
+  Row r;
+#if HWY_MAX_BYTES == 64
+  r.part[0] = hn::ConcatLowerLower(Lanes(), b.part[0], a.part[0]);
+#else
+  for (int k = 0; k < kParts / 2; ++k) {
+    r.part[k] = a.part[k];
+    r.part[kParts / 2 + k] = b.part[k];
+  }
+#endif
+  return r;
+}
+
+/// Of the absolute values of a Chebyshev net's coefficients, by lanes: all; those with an index
+/// above 3; and these times the squares of the rows' and of the lanes' indices.
+HWY_INLINE void add_up(const Row* c, Row* result) {
+  const Row a1 = absolute(c[1]), a2 = absolute(c[2]), a3 = absolute(c[3]);
+  const Row a4 = absolute(c[4]), a5 = absolute(c[5]), a6 = absolute(c[6]), a7 = absolute(c[7]);
+  const Row low = (absolute(c[0]) + a1) + (a2 + a3), high = (a4 + a5) + (a6 + a7);
+  const Row none = Row::all(0);
+  const Row dropped = high + first_lanes(none, low, 4);
+  const Row low_squares = a1 + (a2 * Row::all(4) + a3 * Row::all(9));
+  const Row high_squares =
+      (a4 * Row::all(16) + a5 * Row::all(25)) + (a6 * Row::all(36) + a7 * Row::all(49));
+  result[0] = low + high;
+  result[1] = dropped;
+  result[2] = high_squares + first_lanes(none, low_squares, 4);
+  result[3] = dropped * Row::load(kSquares.lane);
+}
+
+/// The cubic parts of two Chebyshev nets as Bernstein nets, their rows along the nets' lanes.
+HWY_INLINE void cut_off_rows(const Row* f, const Row* g, double* to, PairedExtremes* extremes,
+                             NetSums* sums) {
+  Row s[8], rows[4];
+  add_up(f, s);
+  add_up(g, s + 4);
+  transpose(s);
+  (((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]))).store(sums->of[0]);
+  for (int i = 0; i < 4; ++i) rows[i] = lower_halves(f[i], g[i]);
+  to_bernstein(rows);
+  transpose_halves(rows);
+  to_bernstein(rows);
+  for (int i = 0; i < 4; ++i) rows[i].store(to + 8 * i);
+  *extremes = range_of_rows(rows).extremes();
+}
+
+void cut_off_nets(const double* f, const double* g, double* to, PairedExtremes* extremes,
+                  NetSums* sums) {
+  Row nets[2][8];
+  for (int i = 0; i < 8; ++i) {
+    nets[0][i] = Row::load(f + 8 * i);
+    nets[1][i] = Row::load(g + 8 * i);
+  }
+  cut_off_rows(nets[0], nets[1], to, extremes, sums);
+}
+
+/// A Chebyshev net on a part along the axis of its rows: T_i there is the sum over k of m[i][k] T_k.
+HWY_INLINE void substitute_rows(const double* m, Row* c) {
+  for (int k = 0; k < 8; ++k) {
+    Row sum = c[k] * Row::all(m[8 * k + k]);
+    for (int i = k + 1; i < 8; ++i) sum = sum + c[i] * Row::all(m[8 * i + k]);
+    c[k] = sum;
+  }
+}
+
+/// Two Chebyshev nets on a part of their box, transposed, and their cubic parts as above. A matrix
+/// belongs to each axis, or none where the part is as wide as the box.
+void restrict_nets(const double* f, const double* g, const double* of_rows, const double* of_lanes,
+                   double* to_f, double* to_g, double* to, PairedExtremes* extremes,
+                   NetSums* sums) {
+  Row nets[2][8];
+  for (int k = 0; k < 2; ++k) {
+    Row* net = nets[k];
+    for (int i = 0; i < 8; ++i) net[i] = Row::load((k == 0 ? f : g) + 8 * i);
+    if (of_rows) substitute_rows(of_rows, net);
+    transpose(net);
+    if (of_lanes) substitute_rows(of_lanes, net);
+    for (int i = 0; i < 8; ++i) net[i].store((k == 0 ? to_f : to_g) + 8 * i);
+  }
+  cut_off_rows(nets[0], nets[1], to, extremes, sums);
+}
+
+/// Cubic nets on a part of their box.
 void restrict_cubic(const double* b, const double* nodes, const double* matrix, double* to,
                     PairedExtremes* extremes) {
   HWY_ALIGN double weights[4][8];
@@ -250,19 +316,11 @@ void variations(const double* b, PairedExtremes* result) {
   }
 }
 
-/// The sums of the absolute values of a net's coefficients: of all, of the rows 4 to 7, and of the
-/// lanes 4 to 7.
-void add_up(const double* net, double* result) {
+/// The sum of the absolute values of a net's coefficients.
+double size_of_net(const double* net) {
   Row total = Row::all(0);
-  for (int i = 0; i < 8; ++i) {
-    const Row size = absolute(Row::load(net + 8 * i));
-    total = total + size;
-    if (i >= 4) result[1 + i - 4] = sum_of_lanes(size);
-  }
-  HWY_ALIGN double lanes[8];
-  total.store(lanes);
-  for (int j = 4; j < 8; ++j) result[1 + j] = lanes[j];
-  result[0] = sum_of_lanes(total);
+  for (int i = 0; i < 8; ++i) total = total + absolute(Row::load(net + 8 * i));
+  return sum_of_lanes(total);
 }
 
 }  // namespace encase::HWY_NAMESPACE
@@ -272,12 +330,13 @@ HWY_AFTER_NAMESPACE();
 namespace encase {
 namespace {
 
+HWY_EXPORT(cut_off_nets);
 HWY_EXPORT(restrict_nets);
 HWY_EXPORT(restrict_cubic);
 HWY_EXPORT(halve_nets);
 HWY_EXPORT(precondition);
 HWY_EXPORT(variations);
-HWY_EXPORT(add_up);
+HWY_EXPORT(size_of_net);
 
 constexpr double kUnit = 0x1p-53;
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
@@ -299,22 +358,8 @@ bool find_weights(const Matrix<2>& e, double quality, std::array<double, 2>* v) 
 
 void expand(const Tile& tile, const Box<2>& box, CubicSource* source) {
   expand(tile, box, static_cast<ChebyshevNet*>(source));
-  double sums[9];
-  HWY_DYNAMIC_DISPATCH(add_up)(source->c[0].data(), sums);
-  source->size = sums[0] * kUp;
-  // The fourth derivatives of T_4 to T_7 on [-1,1], over 192.
-  constexpr double kFourth[4] = {1, 10, 54, 210};
-  for (int i = 0; i < 2; ++i) {
-    CubicSource::High& high = source->high[i];
-    high = {0, 0, 0, 0};
-    for (int k = 3; k >= 0; --k) {
-      const double size = sums[1 + 4 * i + k], n = k + 4;
-      high.value += 2.8501 * size;
-      high.slope += (n * n + 16.7) * size;
-      high.value_of_part += 1.0001 * kFourth[k] * size;
-    }
-    high.slope_of_part = 54 * high.value_of_part;
-  }
+  source->rows_axis = 0;
+  source->size = HWY_DYNAMIC_DISPATCH(size_of_net)(source->c[0].data()) * kUp;
 }
 
 bool CubicSource::has_sign() const {
@@ -332,39 +377,101 @@ Part part_of(const Chart& chart, const Box<2>& box) {
   return part;
 }
 
-CubicLoss cubic_loss(const CubicSource& source, const Point<2>& half) {
-  double value[2], slope[2];
-  for (int i = 0; i < 2; ++i) {
-    const CubicSource::High& high = source.high[i];
-    const double square = half[i] * half[i], power = square * square * kUp;
-    value[i] = std::min(high.value, power * high.value_of_part);
-    slope[i] = std::min(high.slope, power * high.slope_of_part);
+namespace {
+
+/// Row i: the coefficients of T_i(origin + half s) in T_0(s), ..., T_7(s), by Chebyshev's recurrence.
+struct alignas(64) Substitution {
+  double m[8][8];
+};
+void substitute(double origin, double half, Substitution* result) {
+  auto& m = result->m;
+  *result = {};
+  m[0][0] = 1;
+  m[1][0] = origin;
+  m[1][1] = half;
+  for (int i = 2; i < 8; ++i) {
+    // 2 s T_k = T_(k-1) + T_(k+1), but 2 s T_0 = 2 T_1.
+    const double* last = m[i - 1];
+    for (int k = 0; k <= i; ++k) {
+      const double below = k == 0 ? 0 : k == 1 ? 2 * last[0] : last[k - 1];
+      const double above = k < 7 ? last[k + 1] : 0;
+      m[i][k] = (2 * origin * last[k] + half * (below + above)) - m[i - 2][k];
+    }
   }
-  return {1.8501 * (value[0] + value[1]), {slope[0] + 16.7 * value[1], slope[1] + 16.7 * value[0]}};
 }
 
-void restrict_to(const std::array<CubicSource, 2>& sources, const Part& part, CubicSystem* system) {
-  const Interpolation& table = interpolation(4);
-  alignas(64) std::array<double, 8> nodes;
-  for (int i = 0; i < 2; ++i)
-    for (int k = 0; k < 4; ++k) nodes[4 * i + k] = part.origin[i] + part.half[i] * table.node[k];
-  PairedExtremes extremes;
-  HWY_DYNAMIC_DISPATCH(restrict_nets)
-  (sources[0].c[0].data(), sources[1].c[0].data(), nodes.data(), table.matrix[0].data(),
-   system->b[0].data(), &extremes);
-  system->rows_axis = 0;
+/// Those for halves and quarters.
+const Substitution* usual_substitution(double origin, double half) {
+  static const auto table = [] {
+    std::array<Substitution, 6> t;
+    for (int k = 0; k < 2; ++k) substitute(k - 0.5, 0.5, &t[k]);
+    for (int k = 0; k < 4; ++k) substitute(0.5 * k - 0.75, 0.25, &t[2 + k]);
+    return t;
+  }();
+  if (half != 0.5 && half != 0.25) return nullptr;
+  const int index = half == 0.5 ? (origin > 0) : 2 + static_cast<int>(2 * origin + 1.5);
+  const double place = half == 0.5 ? index - 0.5 : 0.5 * (index - 2) - 0.75;
+  return index < 6 && origin == place ? &table[index] : nullptr;
+}
+
+/// The matrix for one axis: none where the part is the whole.
+const double* substitution(double origin, double half, Substitution* scratch) {
+  if (half == 1 && origin == 0) return nullptr;
+  if (const Substitution* usual = usual_substitution(origin, half)) return usual->m[0];
+  substitute(origin, half, scratch);
+  return scratch->m[0];
+}
+
+/// What is said of cubic nets that are cut off from sources.
+void describe(const std::array<CubicSource, 2>& sources, const PairedExtremes& extremes,
+              const NetSums& sums, CubicSystem* system) {
+  system->rows_axis = 1 - sources[0].rows_axis;
   system->lo = extremes.lo;
   system->hi = extremes.hi;
   for (int k = 0; k < 2; ++k) {
     const CubicSource& source = sources[k];
-    const CubicLoss loss = cubic_loss(source, part.half);
-    // Weights err by less than 320 u; sums and products round.
-    const double rounding = table.norm * table.norm * source.size * 0x1p-42 + kTiny;
-    system->radius[k] = (source.radius + loss.value + rounding) * kUp;
-    for (int i = 0; i < 2; ++i)
-      system->slope_radius[k][i] =
-          (source.slope_radius[i] * part.half[i] + loss.slope[i] + 3 * rounding) * kUp;
+    const double* sum = sums.of[k];
+    const double rounding = sum[0] * 0x1p-44 + kTiny;
+    system->radius[k] = (source.radius + sum[1] + rounding) * kUp;
+    // The system's rows run along the source's lanes.
+    system->slope_radius[k] = {
+        (source.slope_radius[system->rows_axis] + sum[3] + 3 * rounding) * kUp,
+        (source.slope_radius[1 - system->rows_axis] + sum[2] + 3 * rounding) * kUp};
   }
+}
+
+}  // namespace
+
+void cut_off(const std::array<CubicSource, 2>& sources, CubicSystem* system) {
+  PairedExtremes extremes;
+  NetSums sums;
+  HWY_DYNAMIC_DISPATCH(cut_off_nets)
+  (sources[0].c[0].data(), sources[1].c[0].data(), system->b[0].data(), &extremes, &sums);
+  describe(sources, extremes, sums, system);
+}
+
+void restrict_to(const std::array<CubicSource, 2>& from, const Part& part,
+                 std::array<CubicSource, 2>* to, CubicSystem* system) {
+  const int rows = from[0].rows_axis, lanes = 1 - rows;
+  Substitution of_rows, of_lanes;
+  PairedExtremes extremes;
+  NetSums sums;
+  CubicSource *f = &(*to)[0], *g = &(*to)[1];
+  HWY_DYNAMIC_DISPATCH(restrict_nets)
+  (from[0].c[0].data(), from[1].c[0].data(),
+   substitution(part.origin[rows], part.half[rows], &of_rows),
+   substitution(part.origin[lanes], part.half[lanes], &of_lanes), f->c[0].data(), g->c[0].data(),
+   system->b[0].data(), &extremes, &sums);
+  for (int k = 0; k < 2; ++k) {
+    CubicSource& source = (*to)[k];
+    const double rounding = from[k].size * 0x1p-41 + kTiny;
+    source.rows_axis = lanes;
+    source.size = sums.of[k][0] * kUp;
+    source.radius = (from[k].radius + rounding) * kUp;
+    for (int i = 0; i < 2; ++i)
+      source.slope_radius[i] = (from[k].slope_radius[i] * part.half[i] + 49 * rounding) * kUp;
+  }
+  describe(*to, extremes, sums, system);
 }
 
 void restrict_to(const CubicSystem& from, const Part& part, CubicSystem* system) {

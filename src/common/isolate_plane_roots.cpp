@@ -236,7 +236,7 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box(const Tiles& tiles, c
 /// The cubic nets on a box, from tiles.
 void PlaneRoots::make_net(const Tiles& tiles, const Box<2>& box) {
   for (int i = 0; i < 2; ++i) expand(*tiles[i], box, &sources_[i]);
-  restrict_to(sources_, {{0, 0}, {1, 1}}, &net_);
+  cut_off(sources_, &net_);
 }
 
 std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& around, Tiles* tiles) {
@@ -414,7 +414,7 @@ void PlaneRoots::look(const PlaneSubdivision<2>::Node& node, const Box<2>& box, 
     restrict_to(node.net, part_of(chart_of(node.box), box), &net_);
     return;
   }
-  restrict_to(node.base->source, part_of(node.base->chart, box), &net_);
+  restrict_to(node.base->source, part_of(node.base->chart, box), &sources_, &net_);
   if (coarse(net_, 0)) make_net(node.tile, box);
 }
 
