@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "common/cubic_system.cpp"
@@ -23,6 +24,18 @@ struct PairedExtremes {
 /// of those that cubics leave out; and of these times the squares of the rows' and lanes' indices.
 struct NetSums {
   alignas(64) double of[2][4];
+};
+
+/// Sums over a Chebyshev net: of the absolute values of the coefficients of degrees up to 7; of the
+/// others; and of these times the squares of the rows' and lanes' indices.
+struct HighSums {
+  double size, left_out, row_squares, lane_squares;
+};
+
+/// Powers of origin + half s on [-1,1]: row i has the Chebyshev coefficients of the i-th one.
+struct alignas(64) Powers {
+  static constexpr int kRow = Tile::kRow;
+  double m[kRow][kRow];
 };
 
 /// A system, combined with the rows of a matrix Y.
@@ -54,9 +67,9 @@ constexpr Coordinates make_coordinates() {
 constexpr Coordinates kCoordinates = make_coordinates();
 
 struct alignas(64) Squares {
-  double lane[8];
+  double lane[16];
 };
-constexpr Squares kSquares{{0, 1, 4, 9, 16, 25, 36, 49}};
+constexpr Squares kSquares{{0, 1, 4, 9, 16, 25, 36, 49, 64, 81, 100, 121, 144, 169, 196, 225}};
 
 }  // namespace
 }  // namespace encase
@@ -172,6 +185,61 @@ void cut_off_nets(const double* f, const double* g, double* to, PairedExtremes* 
     nets[1][i] = Row::load(g + 8 * i);
   }
   cut_off_rows(nets[0], nets[1], to, extremes, sums);
+}
+
+/// Sums of the rows up to `last` with eight columns of a matrix.
+HWY_INLINE void combine_rows(const Row* rows, int last, const double* matrix, Row* result) {
+  Row sum[8];
+  for (int k = 0; k < 8; ++k) sum[k] = Row::all(0);
+  for (int i = 0; i <= last; ++i) {
+    const Row row = rows[i];
+    for (int k = 0; k < 8; ++k) sum[k] = sum[k] + row * Row::all(matrix[Powers::kRow * i + k]);
+  }
+  for (int k = 0; k < 8; ++k) result[k] = sum[k];
+}
+
+/// A polynomial of a total degree up to 15, in powers, as a Chebyshev net on a box: what belongs to
+/// degrees up to 7, transposed, and sums over the rest.
+void expand_powers(const double* a, int degree, const double* of_x, const double* of_y, double* net,
+                   HighSums* sums) {
+  constexpr int kHigh = 8 * Powers::kRow + 8;
+  const int above = degree - 8;  // the degree left where one variable has eight
+  Row rows[16], low[16], high[8];
+  for (int i = 0; i <= degree; ++i) rows[i] = Row::load(a + Tile::kRow * i);
+  combine_rows(rows, degree, of_x, low);
+  transpose(low);
+  if (above >= 0) {
+    combine_rows(rows + 8, above, of_x + kHigh, high);
+    for (int i = 0; i <= above; ++i) rows[i] = Row::load(a + Tile::kRow * i + 8);
+    combine_rows(rows, above, of_x, low + 8);
+    transpose(low + 8);
+    transpose(high);
+  }
+  combine_rows(low, degree, of_y, rows);
+  Row size = Row::all(0), left_out = size, row_squares = size, lane_squares = size;
+  for (int i = 0; i < 8; ++i) {
+    rows[i].store(net + 8 * i);
+    size = size + absolute(rows[i]);
+  }
+  if (above >= 0) {
+    const Row squares = Row::load(kSquares.lane), high_squares = Row::load(kSquares.lane + 8);
+    combine_rows(low + 8, above, of_y + kHigh, rows);
+    for (int i = 0; i <= above; ++i) {
+      const Row term = absolute(rows[i]);
+      left_out = left_out + term;
+      row_squares = row_squares + term * Row::all(kSquares.lane[8 + i]);
+      lane_squares = lane_squares + term * squares;
+    }
+    combine_rows(high, above, of_y, rows);
+    for (int i = 0; i <= above; ++i) {
+      const Row term = absolute(rows[i]);
+      left_out = left_out + term;
+      row_squares = row_squares + term * Row::all(kSquares.lane[i]);
+      lane_squares = lane_squares + term * high_squares;
+    }
+  }
+  *sums = {sum_of_lanes(size), sum_of_lanes(left_out), sum_of_lanes(row_squares),
+           sum_of_lanes(lane_squares)};
 }
 
 /// A Chebyshev net on a part along the axis of its rows: T_i there is the sum over k of m[i][k] T_k.
@@ -316,13 +384,6 @@ void variations(const double* b, PairedExtremes* result) {
   }
 }
 
-/// The sum of the absolute values of a net's coefficients.
-double size_of_net(const double* net) {
-  Row total = Row::all(0);
-  for (int i = 0; i < 8; ++i) total = total + absolute(Row::load(net + 8 * i));
-  return sum_of_lanes(total);
-}
-
 }  // namespace encase::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -336,7 +397,7 @@ HWY_EXPORT(restrict_cubic);
 HWY_EXPORT(halve_nets);
 HWY_EXPORT(precondition);
 HWY_EXPORT(variations);
-HWY_EXPORT(size_of_net);
+HWY_EXPORT(expand_powers);
 
 constexpr double kUnit = 0x1p-53;
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
@@ -356,10 +417,70 @@ bool find_weights(const Matrix<2>& e, double quality, std::array<double, 2>* v) 
 
 }  // namespace
 
+namespace {
+
+void make_powers(double origin, double half, Powers* result) {
+  *result = {};
+  auto& m = result->m;
+  m[0][0] = 1;
+  for (int i = 1; i < Powers::kRow; ++i) {
+    // s T_k = (T_(k-1) + T_(k+1)) / 2, but s T_0 = T_1.
+    const double* last = m[i - 1];
+    for (int k = 0; k <= i; ++k) {
+      const double below = k == 0 ? 0 : k == 1 ? 2 * last[0] : last[k - 1];
+      const double above = k + 1 < Powers::kRow ? last[k + 1] : 0;
+      m[i][k] = origin * last[k] + 0.5 * half * (below + above);
+    }
+  }
+}
+
+/// The number of a part that halvings lead to: those of one size count on from 1, 2, 4, 8; 0 if it
+/// is another or smaller.
+int number_of_part(double origin, double half) {
+  if (!(half >= 0.125 && half <= 1)) return 0;
+  const int count = static_cast<int>(1 / half), index = static_cast<int>(0.5 * (origin + 1) * count);
+  const bool usual = half * count == 1 && (count & (count - 1)) == 0 && index >= 0 &&
+                     index < count && origin == (2 * index + 1) * half - 1;
+  return usual ? count + index : 0;
+}
+
+const Powers& powers(double origin, double half, Powers* scratch) {
+  static const auto usual = [] {
+    std::vector<Powers> table(16);
+    for (int count = 1; count <= 8; count *= 2)
+      for (int index = 0; index < count; ++index)
+        make_powers((2.0 * index + 1) / count - 1, 1.0 / count,
+                    &table[static_cast<std::size_t>(count + index)]);
+    return table;
+  }();
+  if (const int number = number_of_part(origin, half)) return usual[static_cast<std::size_t>(number)];
+  make_powers(origin, half, scratch);
+  return *scratch;
+}
+
+}  // namespace
+
 void expand(const Tile& tile, const Box<2>& box, CubicSource* source) {
-  expand(tile, box, static_cast<ChebyshevNet*>(source));
-  source->rows_axis = 0;
-  source->size = HWY_DYNAMIC_DISPATCH(size_of_net)(source->c[0].data()) * kUp;
+  Point<2> part;
+  const double* m[2];
+  Powers scratch[2];
+  for (int i = 0; i < 2; ++i) {
+    const Centered chart = centered(box.lo[i], box.hi[i]);
+    part[i] = chart.half / tile.half[i];
+    m[i] = powers((chart.center - tile.center[i]) / tile.half[i], part[i], &scratch[i]).m[0];
+  }
+  HighSums sums;
+  HWY_DYNAMIC_DISPATCH(expand_powers)
+  (tile.a[0].data(), tile.degree, m[0], m[1], source->c[0].data(), &sums);
+  // All coefficients together are off by at most 184 u tile.sum.
+  const double rounding = tile.sum * 0x1p-45 + kTiny;
+  source->rows_axis = 1;
+  source->size = sums.size * kUp;
+  source->left_out = sums.left_out * kUp;
+  source->radius = (source->left_out + tile.error + rounding) * kUp;
+  source->slope_radius = {
+      (sums.lane_squares + tile.slope_error * part[0] + 225 * rounding) * kUp,
+      (sums.row_squares + tile.slope_error * part[1] + 225 * rounding) * kUp};
 }
 
 bool CubicSource::has_sign() const {
@@ -400,24 +521,19 @@ void substitute(double origin, double half, Substitution* result) {
   }
 }
 
-/// Those for halves and quarters.
-const Substitution* usual_substitution(double origin, double half) {
-  static const auto table = [] {
-    std::array<Substitution, 6> t;
-    for (int k = 0; k < 2; ++k) substitute(k - 0.5, 0.5, &t[k]);
-    for (int k = 0; k < 4; ++k) substitute(0.5 * k - 0.75, 0.25, &t[2 + k]);
-    return t;
-  }();
-  if (half != 0.5 && half != 0.25) return nullptr;
-  const int index = half == 0.5 ? (origin > 0) : 2 + static_cast<int>(2 * origin + 1.5);
-  const double place = half == 0.5 ? index - 0.5 : 0.5 * (index - 2) - 0.75;
-  return index < 6 && origin == place ? &table[index] : nullptr;
-}
-
 /// The matrix for one axis: none where the part is the whole.
 const double* substitution(double origin, double half, Substitution* scratch) {
-  if (half == 1 && origin == 0) return nullptr;
-  if (const Substitution* usual = usual_substitution(origin, half)) return usual->m[0];
+  static const auto usual = [] {
+    std::vector<Substitution> table(16);
+    for (int count = 1; count <= 8; count *= 2)
+      for (int index = 0; index < count; ++index)
+        substitute((2.0 * index + 1) / count - 1, 1.0 / count,
+                   &table[static_cast<std::size_t>(count + index)]);
+    return table;
+  }();
+  const int number = number_of_part(origin, half);
+  if (number == 1) return nullptr;
+  if (number > 1) return usual[static_cast<std::size_t>(number)].m[0];
   substitute(origin, half, scratch);
   return scratch->m[0];
 }
@@ -467,6 +583,7 @@ void restrict_to(const std::array<CubicSource, 2>& from, const Part& part,
     const double rounding = from[k].size * 0x1p-41 + kTiny;
     source.rows_axis = lanes;
     source.size = sums.of[k][0] * kUp;
+    source.left_out = from[k].left_out;
     source.radius = (from[k].radius + rounding) * kUp;
     for (int i = 0; i < 2; ++i)
       source.slope_radius[i] = (from[k].slope_radius[i] * part.half[i] + 49 * rounding) * kUp;

@@ -12,14 +12,20 @@
 /// docs/error-bounds.md derives their radii.
 namespace encase {
 
-/// A polynomial on a box from which cubic nets on the box and its parts are made.
-struct CubicSource : ChebyshevNet {
-  int rows_axis = 0;  ///< whose Chebyshev polynomials the rows belong to (0: x)
-  double size;        ///< at least the sum of the coefficients' absolute values
+/// A polynomial on a box, in the box's coordinates [-1,1]^2, from which cubic nets on the box and
+/// its parts are made: a tensor Chebyshev net of degree 7.
+struct CubicSource {
+  alignas(64) std::array<std::array<double, 8>, 8> c;
+  int rows_axis;       ///< whose Chebyshev polynomials the rows belong to (0: x)
+  double size;         ///< at least the sum of the coefficients' absolute values
+  double left_out;     ///< the part of the radius that is due to terms of higher degree
+  double radius;       ///< bounds the distance of values
+  Point<2> slope_radius;  ///< bounds on the distance of partial derivatives, in x and y
 
   /// The polynomial is proved to have a sign on the closed box.
   bool has_sign() const;
 };
+/// On a box inside the tile's rectangle.
 void expand(const Tile& tile, const Box<2>& box, CubicSource* source);
 
 /// Two polynomials on a box, in the box's coordinates [-1,1]^2: tensor Bernstein nets of degree 3,

@@ -516,16 +516,6 @@ void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
   add_rounding(patch, e.rounding);
 }
 
-void expand(const Tile& tile, const Box<2>& box, ChebyshevNet* net) {
-  static const Interpolation table = make_interpolation(8, Basis::Chebyshev);
-  const Expanded e = expand_with(table, tile, box, &net->c);
-  // 64 coefficients; derivatives of T_k are at most k^2.
-  net->radius = (e.loss.value + tile.error + 64 * e.rounding) * kUp;
-  for (int i = 0; i < 2; ++i)
-    net->slope_radius[i] =
-        (e.loss.slope + tile.slope_error * e.part[i] + 8 * 140 * e.rounding) * kUp;
-}
-
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper) {
   Extremes extremes[2];
   // Each of count - 1 averages rounds once, relative to the largest coefficient.

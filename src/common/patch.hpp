@@ -68,15 +68,6 @@ InterpolationLoss interpolation_loss(const Tile& tile, double part);
 /// degree) on a box inside the tile's rectangle, rows along x.
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch);
 
-/// A tensor Chebyshev net of degree 7: row i belongs to T_i in x, lane j to T_j in y. The radii are
-/// those of a patch.
-struct ChebyshevNet {
-  alignas(64) std::array<std::array<double, 8>, 8> c;
-  double radius = 0;
-  std::array<double, 2> slope_radius{};
-};
-void expand(const Tile& tile, const Box<2>& box, ChebyshevNet* net);
-
 /// The halves across an axis (their rows run along the other one). Without `whole`, of a half on
 /// which f has a proved sign only that is valid: lo, hi and radius. `patch` may be one of the
 /// halves.
