@@ -242,30 +242,43 @@ void expand_powers(const double* a, int degree, const double* of_x, const double
            sum_of_lanes(lane_squares)};
 }
 
-/// A Chebyshev net on a part along the axis of its rows: T_i there is the sum over k of m[i][k] T_k.
+/// A Chebyshev net of N rows on a part along their axis: T_i there is the sum over k of m[i][k]
+/// T_k.
+template <int N>
 HWY_INLINE void substitute_rows(const double* m, Row* c) {
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < N; ++k) {
     Row sum = c[k] * Row::all(m[8 * k + k]);
-    for (int i = k + 1; i < 8; ++i) sum = sum + c[i] * Row::all(m[8 * i + k]);
+    for (int i = k + 1; i < N; ++i) sum = sum + c[i] * Row::all(m[8 * i + k]);
     c[k] = sum;
   }
 }
 
 /// Two Chebyshev nets on a part of their box, transposed, and their cubic parts as above. A matrix
 /// belongs to each axis, or none where the part is as wide as the box.
-void restrict_nets(const double* f, const double* g, const double* of_rows, const double* of_lanes,
-                   double* to_f, double* to_g, double* to, PairedExtremes* extremes,
-                   NetSums* sums) {
+template <int N>
+void restrict_nets_of(const double* f, const double* g, const double* of_rows,
+                      const double* of_lanes, double* to_f, double* to_g, double* to,
+                      PairedExtremes* extremes, NetSums* sums) {
   Row nets[2][8];
   for (int k = 0; k < 2; ++k) {
     Row* net = nets[k];
     for (int i = 0; i < 8; ++i) net[i] = Row::load((k == 0 ? f : g) + 8 * i);
-    if (of_rows) substitute_rows(of_rows, net);
+    if (of_rows) substitute_rows<N>(of_rows, net);
     transpose(net);
-    if (of_lanes) substitute_rows(of_lanes, net);
+    if (of_lanes) substitute_rows<N>(of_lanes, net);
     for (int i = 0; i < 8; ++i) net[i].store((k == 0 ? to_f : to_g) + 8 * i);
   }
   cut_off_rows(nets[0], nets[1], to, extremes, sums);
+}
+
+void restrict_nets(int count, const double* f, const double* g, const double* of_rows,
+                   const double* of_lanes, double* to_f, double* to_g, double* to,
+                   PairedExtremes* extremes, NetSums* sums) {
+  const auto run = count <= 5   ? restrict_nets_of<5>
+                   : count == 6 ? restrict_nets_of<6>
+                   : count == 7 ? restrict_nets_of<7>
+                                : restrict_nets_of<8>;
+  run(f, g, of_rows, of_lanes, to_f, to_g, to, extremes, sums);
 }
 
 /// Cubic nets on a part of their box.
@@ -419,13 +432,14 @@ bool find_weights(const Matrix<2>& e, double quality, std::array<double, 2>* v) 
 
 namespace {
 
-void make_powers(double origin, double half, Powers* result) {
-  *result = {};
+void make_powers(double origin, double half, int degree, Powers* result) {
   auto& m = result->m;
+  std::fill_n(m[0], Powers::kRow, 0.0);
   m[0][0] = 1;
-  for (int i = 1; i < Powers::kRow; ++i) {
+  for (int i = 1; i <= degree; ++i) {
     // s T_k = (T_(k-1) + T_(k+1)) / 2, but s T_0 = T_1.
     const double* last = m[i - 1];
+    std::fill_n(m[i], Powers::kRow, 0.0);
     for (int k = 0; k <= i; ++k) {
       const double below = k == 0 ? 0 : k == 1 ? 2 * last[0] : last[k - 1];
       const double above = k + 1 < Powers::kRow ? last[k + 1] : 0;
@@ -438,23 +452,25 @@ void make_powers(double origin, double half, Powers* result) {
 /// is another or smaller.
 int number_of_part(double origin, double half) {
   if (!(half >= 0.125 && half <= 1)) return 0;
-  const int count = static_cast<int>(1 / half), index = static_cast<int>(0.5 * (origin + 1) * count);
+  const int count = static_cast<int>(1 / half),
+            index = static_cast<int>(0.5 * (origin + 1) * count);
   const bool usual = half * count == 1 && (count & (count - 1)) == 0 && index >= 0 &&
                      index < count && origin == (2 * index + 1) * half - 1;
   return usual ? count + index : 0;
 }
 
-const Powers& powers(double origin, double half, Powers* scratch) {
+const Powers& powers(double origin, double half, int degree, Powers* scratch) {
   static const auto usual = [] {
     std::vector<Powers> table(16);
     for (int count = 1; count <= 8; count *= 2)
       for (int index = 0; index < count; ++index)
-        make_powers((2.0 * index + 1) / count - 1, 1.0 / count,
+        make_powers((2.0 * index + 1) / count - 1, 1.0 / count, Tile::kMaxDegree,
                     &table[static_cast<std::size_t>(count + index)]);
     return table;
   }();
-  if (const int number = number_of_part(origin, half)) return usual[static_cast<std::size_t>(number)];
-  make_powers(origin, half, scratch);
+  if (const int number = number_of_part(origin, half))
+    return usual[static_cast<std::size_t>(number)];
+  make_powers(origin, half, degree, scratch);
   return *scratch;
 }
 
@@ -467,20 +483,21 @@ void expand(const Tile& tile, const Box<2>& box, CubicSource* source) {
   for (int i = 0; i < 2; ++i) {
     const Centered chart = centered(box.lo[i], box.hi[i]);
     part[i] = chart.half / tile.half[i];
-    m[i] = powers((chart.center - tile.center[i]) / tile.half[i], part[i], &scratch[i]).m[0];
+    m[i] = powers((chart.center - tile.center[i]) / tile.half[i], part[i], tile.degree, &scratch[i])
+               .m[0];
   }
   HighSums sums;
   HWY_DYNAMIC_DISPATCH(expand_powers)
   (tile.a[0].data(), tile.degree, m[0], m[1], source->c[0].data(), &sums);
-  // All coefficients together are off by at most 184 u tile.sum.
+  // All coefficients together are off by less than 110 u tile.sum.
   const double rounding = tile.sum * 0x1p-45 + kTiny;
   source->rows_axis = 1;
+  source->count = std::clamp(tile.degree + 1, 1, 8);
   source->size = sums.size * kUp;
   source->left_out = sums.left_out * kUp;
   source->radius = (source->left_out + tile.error + rounding) * kUp;
-  source->slope_radius = {
-      (sums.lane_squares + tile.slope_error * part[0] + 225 * rounding) * kUp,
-      (sums.row_squares + tile.slope_error * part[1] + 225 * rounding) * kUp};
+  source->slope_radius = {(sums.lane_squares + tile.slope_error * part[0] + 225 * rounding) * kUp,
+                          (sums.row_squares + tile.slope_error * part[1] + 225 * rounding) * kUp};
 }
 
 bool CubicSource::has_sign() const {
@@ -500,7 +517,8 @@ Part part_of(const Chart& chart, const Box<2>& box) {
 
 namespace {
 
-/// Row i: the coefficients of T_i(origin + half s) in T_0(s), ..., T_7(s), by Chebyshev's recurrence.
+/// Row i: the coefficients of T_i(origin + half s) in T_0(s), ..., T_7(s), by Chebyshev's
+/// recurrence.
 struct alignas(64) Substitution {
   double m[8][8];
 };
@@ -574,7 +592,7 @@ void restrict_to(const std::array<CubicSource, 2>& from, const Part& part,
   NetSums sums;
   CubicSource *f = &(*to)[0], *g = &(*to)[1];
   HWY_DYNAMIC_DISPATCH(restrict_nets)
-  (from[0].c[0].data(), from[1].c[0].data(),
+  (std::max(from[0].count, from[1].count), from[0].c[0].data(), from[1].c[0].data(),
    substitution(part.origin[rows], part.half[rows], &of_rows),
    substitution(part.origin[lanes], part.half[lanes], &of_lanes), f->c[0].data(), g->c[0].data(),
    system->b[0].data(), &extremes, &sums);
@@ -582,6 +600,7 @@ void restrict_to(const std::array<CubicSource, 2>& from, const Part& part,
     CubicSource& source = (*to)[k];
     const double rounding = from[k].size * 0x1p-41 + kTiny;
     source.rows_axis = lanes;
+    source.count = from[k].count;
     source.size = sums.of[k][0] * kUp;
     source.left_out = from[k].left_out;
     source.radius = (from[k].radius + rounding) * kUp;

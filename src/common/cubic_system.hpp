@@ -16,10 +16,11 @@ namespace encase {
 /// its parts are made: a tensor Chebyshev net of degree 7.
 struct CubicSource {
   alignas(64) std::array<std::array<double, 8>, 8> c;
-  int rows_axis;       ///< whose Chebyshev polynomials the rows belong to (0: x)
-  double size;         ///< at least the sum of the coefficients' absolute values
-  double left_out;     ///< the part of the radius that is due to terms of higher degree
-  double radius;       ///< bounds the distance of values
+  int rows_axis;          ///< whose Chebyshev polynomials the rows belong to (0: x)
+  int count;              ///< of rows and lanes; all others are zero
+  double size;            ///< at least the sum of the coefficients' absolute values
+  double left_out;        ///< the part of the radius that is due to terms of higher degree
+  double radius;          ///< bounds the distance of values
   Point<2> slope_radius;  ///< bounds on the distance of partial derivatives, in x and y
 
   /// The polynomial is proved to have a sign on the closed box.
@@ -56,7 +57,8 @@ inline Chart chart_of(const Box<2>& box) {
 }
 Part part_of(const Chart& chart, const Box<2>& box);
 
-/// The cubic nets of the sources, which lie alike, on their box: terms of higher degree are left out.
+/// The cubic nets of the sources, which lie alike, on their box: terms of higher degree are left
+/// out.
 void cut_off(const std::array<CubicSource, 2>& sources, CubicSystem* system);
 
 /// The sources on a part of their box, and the cubic nets there, as above. `to` may not be `from`.

@@ -158,8 +158,7 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
   const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
   if (!(std::fabs(determinant) > 0x1p-900)) return std::nullopt;  // its products may underflow
   const double scale = 1 / determinant;
-  const Matrix<2> y{
-      {{j[1][1] * scale, -j[0][1] * scale}, {-j[1][0] * scale, j[0][0] * scale}}};
+  const Matrix<2> y{{{j[1][1] * scale, -j[0][1] * scale}, {-j[1][0] * scale, j[0][0] * scale}}};
   Point<2>& d = *step;
   d = {0, 0};
   Point<2> error{0x1p-1020, 0x1p-1020}, reach;  // what underflows
@@ -193,9 +192,8 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
     for (int m = 0; m < 2; ++m) spread[i][m] = local / tile.half[m] * kUp;
   }
   // Y J0 is the identity but for the rounding of Y.
-  const double off = 0x1p-50 *
-                     (std::fabs(j[0][0] * j[1][1]) + std::fabs(j[0][1] * j[1][0])) *
-                     std::fabs(scale);
+  const double off =
+      0x1p-50 * (std::fabs(j[0][0] * j[1][1]) + std::fabs(j[0][1] * j[1][0])) * std::fabs(scale);
   Point<2> image;
   for (int k = 0; k < 2; ++k) {
     image[k] = error[k];
@@ -407,7 +405,8 @@ Box<2> inner_box(const Box<2>& box, const Box<2>& local) {
 /// Whether the slopes of a net tell something about those of the polynomials.
 bool has_slopes(const CubicSystem& net) {
   for (int i = 0; i < 2; ++i)
-    if (!(std::max(net.slope_radius[i][0], net.slope_radius[i][1]) < 0.08 * (net.hi[i] - net.lo[i])))
+    if (!(std::max(net.slope_radius[i][0], net.slope_radius[i][1]) <
+          0.08 * (net.hi[i] - net.lo[i])))
       return false;
   return true;
 }

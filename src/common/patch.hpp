@@ -36,8 +36,7 @@ struct Patch {
   double magnitude() const { return hi > -lo ? hi : -lo; }
 };
 
-/// Interpolation at the nodes of Chebyshev, and from there to the coefficients of a basis:
-/// constants.
+/// Interpolation at the nodes of Chebyshev, and from there to Bernstein coefficients: constants.
 struct Interpolation {
   int count = 0;
   alignas(64) std::array<double, 8> node{};

@@ -389,7 +389,7 @@ inline bool coarse(const CubicSource& source, int level) {
 }
 
 inline bool coarse(const CubicSystem& system, int level) {
-  const double of_value = tolerated(level, 0.1), of_slope = tolerated(level, 4);
+  const double of_value = tolerated(level, 0.06), of_slope = tolerated(level, 4);
   for (int i = 0; i < 2; ++i) {
     const double slope_radius = std::max(system.slope_radius[i][0], system.slope_radius[i][1]);
     if (!(system.radius[i] <= of_value * system.magnitude(i) &&
@@ -407,8 +407,8 @@ inline bool is_settled(const TiledFunction& f, const CubicSource& source) {
   return !f.polynomial().is_polynomial() && source.has_sign();
 }
 
-/// Whether nets on a part of a tile's rectangle would be too far from the tile's polynomial by their
-/// low degree.
+/// Whether nets on a part of a tile's rectangle would be too far from the tile's polynomial by
+/// their low degree.
 inline bool hopeless(const Tile& tile, double part, int, const Patch&) {
   double size = 0;
   for (int k = 0; k <= 2; ++k)
