@@ -12,19 +12,21 @@
 /// docs/error-bounds.md derives their radii.
 namespace encase {
 
-/// A polynomial on a box from which cubic nets on parts of the box are made.
-struct CubicSource : ChebyshevNet {
-  double size;  ///< at least the sum of the coefficients' absolute values
-  /// What cubics lose of the terms with T_4 to T_7 in one coordinate, of values and slopes: bounds
-  /// for all parts of the box, and others that are multiplied by the part's half width^4.
-  struct High {
-    double value, slope, value_of_part, slope_of_part;
-  };
-  std::array<High, 2> high;
+/// A polynomial on a box, in the box's coordinates [-1,1]^2, from which cubic nets on the box and
+/// its parts are made: a tensor Chebyshev net of degree 7.
+struct CubicSource {
+  alignas(64) std::array<std::array<double, 8>, 8> c;
+  int rows_axis;          ///< whose Chebyshev polynomials the rows belong to (0: x)
+  int count;              ///< of rows and lanes; all others are zero
+  double size;            ///< at least the sum of the coefficients' absolute values
+  double left_out;        ///< the part of the radius that is due to terms of higher degree
+  double radius;          ///< bounds the distance of values
+  Point<2> slope_radius;  ///< bounds on the distance of partial derivatives, in x and y
 
   /// The polynomial is proved to have a sign on the closed box.
   bool has_sign() const;
 };
+/// On a box inside the tile's rectangle.
 void expand(const Tile& tile, const Box<2>& box, CubicSource* source);
 
 /// Two polynomials on a box, in the box's coordinates [-1,1]^2: tensor Bernstein nets of degree 3,
@@ -55,18 +57,15 @@ inline Chart chart_of(const Box<2>& box) {
 }
 Part part_of(const Chart& chart, const Box<2>& box);
 
-/// How far cubic nets on a part of half widths `half` are from the source's net: values,
-/// derivatives in x and y.
-struct CubicLoss {
-  double value;
-  std::array<double, 2> slope;
-};
-CubicLoss cubic_loss(const CubicSource& source, const Point<2>& half);
+/// The cubic nets of the sources, which lie alike, on their box: terms of higher degree are left
+/// out.
+void cut_off(const std::array<CubicSource, 2>& sources, CubicSystem* system);
 
-/// The nets on a part of the sources' box, rows along x.
-void restrict_to(const std::array<CubicSource, 2>& sources, const Part& part, CubicSystem* system);
+/// The sources on a part of their box, and the cubic nets there, as above. `to` may not be `from`.
+void restrict_to(const std::array<CubicSource, 2>& from, const Part& part,
+                 std::array<CubicSource, 2>* to, CubicSystem* system);
 
-/// The same from cubic nets.
+/// Cubic nets on a part of the box of others.
 void restrict_to(const CubicSystem& from, const Part& part, CubicSystem* system);
 
 /// The halves across an axis (their rows run along the other one), and for each whether it is

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -18,9 +20,14 @@ constexpr int kCloserLooks = 3;
 constexpr double kSmallPart = 0.25;  // of a box's area
 constexpr int kSimpleLevels = 16;    // of halvings, after which most crossings are told apart
 
+/// The distance to the next double away from zero, and towards it.
 double ulp(double x) {
   x = std::fabs(x);
-  return std::nextafter(x, HUGE_VAL) - x;
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) + 1) - x;
+}
+double ulp_below(double x) {
+  x = std::fabs(x);
+  return x > 0 ? x - std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) - 1) : 0;
 }
 
 /// As narrow as doubles allow, some units in the last place.
@@ -71,8 +78,8 @@ class PlaneRoots {
                                      Approximation a) const;
   std::optional<Enclosure> tight_box_at(const Tiles& tiles, const Box<2>& around,
                                         const Approximation& a, Point<2>* d) const;
-  void make_net(const Tiles& tiles, const Box<2>& box);
-  void look(const PlaneSubdivision<2>::Node& node, const Box<2>& box, bool first);
+  void look(const PlaneSubdivision<2>::Node& node, const CubicSystem& last, const Box<2>& last_box,
+            const Box<2>& box, CubicSystem* net);
   std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
   std::optional<Box<2>> enclose(const Tiles& tiles, const Box<2>& around, const Contraction<2>& c,
                                 Point<2> x) const;
@@ -84,7 +91,7 @@ class PlaneRoots {
   Kernel& kernel_;
   std::array<Tile, 2> around_tiles_;
   std::array<CubicSource, 2> sources_;
-  CubicSystem net_;
+  std::array<CubicSystem, 2> nets_;
   SystemVerdict verdict_;
 };
 
@@ -95,16 +102,16 @@ std::optional<PlaneRoots::Step> PlaneRoots::newton_step(const Tiles& tiles, cons
   std::array<double, 2> value;
   for (int i = 0; i < 2; ++i) {
     const Tile& tile = *tiles[i];
-    const Point<2> s{(x[0] - tile.center[0]) / tile.half[0],
-                     (x[1] - tile.center[1]) / tile.half[1]};
-    const auto jet = value_and_gradient(tile, s);
+    const Point<2> per_half{1 / tile.half[0], 1 / tile.half[1]};
+    const auto jet = value_and_gradient(
+        tile, {(x[0] - tile.center[0]) * per_half[0], (x[1] - tile.center[1]) * per_half[1]});
     value[i] = values ? (*values)[i] : jet[0];
-    step.jacobian[i] = {jet[1] / tile.half[0], jet[2] / tile.half[1]};
+    step.jacobian[i] = {jet[1] * per_half[0], jet[2] * per_half[1]};
   }
   const auto& j = step.jacobian;
-  const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-  step.d = {(value[0] * j[1][1] - value[1] * j[0][1]) / determinant,
-            (value[1] * j[0][0] - value[0] * j[1][0]) / determinant};
+  const double scale = 1 / (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
+  step.d = {(value[0] * j[1][1] - value[1] * j[0][1]) * scale,
+            (value[1] * j[0][0] - value[0] * j[1][0]) * scale};
   if (!std::isfinite(step.d[0]) || !std::isfinite(step.d[1])) return std::nullopt;
   return step;
 }
@@ -150,8 +157,8 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
   const Matrix<2>& j = a.jacobian;
   const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
   if (!(std::fabs(determinant) > 0x1p-900)) return std::nullopt;  // its products may underflow
-  const Matrix<2> y{{{j[1][1] / determinant, -j[0][1] / determinant},
-                     {-j[1][0] / determinant, j[0][0] / determinant}}};
+  const double scale = 1 / determinant;
+  const Matrix<2> y{{{j[1][1] * scale, -j[0][1] * scale}, {-j[1][0] * scale, j[0][0] * scale}}};
   Point<2>& d = *step;
   d = {0, 0};
   Point<2> error{0x1p-1020, 0x1p-1020}, reach;  // what underflows
@@ -176,23 +183,24 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
   }
   // The change of the Jacobian, the rounding of its evaluation (Horner's rule twice) and of the
   // point in the tile's coordinates, and what the tile is off.
-  std::array<double, 2> spread;
+  Matrix<2> spread;  // of row i, in x
   for (int i = 0; i < 2; ++i) {
     const Tile& tile = *tiles[i];
-    spread[i] = (tile.bend * (far + 0x1p-48) + tile.slope_error +
-                 0x1p-52 * (4 * tile.degree + 8) * tile.slope) *
-                kUp;
+    const double local = (tile.bend * (far + 0x1p-48) + tile.slope_error +
+                          0x1p-52 * (4 * tile.degree + 8) * tile.slope) *
+                         kUp;
+    for (int m = 0; m < 2; ++m) spread[i][m] = local / tile.half[m] * kUp;
   }
+  // Y J0 is the identity but for the rounding of Y.
+  const double off =
+      0x1p-50 * (std::fabs(j[0][0] * j[1][1]) + std::fabs(j[0][1] * j[1][0])) * std::fabs(scale);
   Point<2> image;
   for (int k = 0; k < 2; ++k) {
     image[k] = error[k];
     for (int m = 0; m < 2; ++m) {
       double e = 0x1p-48 * (std::fabs(y[k][0] * j[0][m]) + std::fabs(y[k][1] * j[1][m]));
-      for (int i = 0; i < 2; ++i) e += std::fabs(y[k][i]) / tiles[i]->half[m] * spread[i] * kUp;
-      // Y J0 is the identity but for the rounding of Y.
-      e += 0x1p-50 * (std::fabs(j[0][0] * j[1][1]) + std::fabs(j[0][1] * j[1][0])) /
-           std::fabs(determinant);
-      image[k] += e * reach[m] * kUp;
+      for (int i = 0; i < 2; ++i) e += std::fabs(y[k][i]) * spread[i][m];
+      image[k] += (e + off) * reach[m] * kUp;
     }
     if (!((std::fabs(d[k]) + image[k]) * kUp < reach[k])) return std::nullopt;
   }
@@ -205,8 +213,7 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
     // half the distance to the next double?
     const double back = x - a.x[k];
     const double lost = (a.x[k] - (x - back)) + (-d[k] - back);
-    const double gap = std::fabs(x) - std::nextafter(std::fabs(x), 0.0);
-    nearest = nearest && (std::fabs(lost) + image[k]) * kUp < 0.5 * gap;
+    nearest = nearest && (std::fabs(lost) + image[k]) * kUp < 0.5 * ulp_below(x);
     const double wanted = std::max(16 * (image[k] + ulp(x)),
                                    16 * ulp(std::max(std::fabs(x), 0x1p-20 * around.width(k))));
     const double unit = 4 * ulp(std::fabs(x) + wanted);
@@ -224,19 +231,13 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
 std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box(const Tiles& tiles, const Box<2>& around,
                                                            Approximation a) const {
   for (int round = 0;; ++round) {
-    Point<2> d;
+    Point<2> d{};
     const auto enclosure = tight_box_at(tiles, around, a, &d);
     if (round == 2 || (enclosure && enclosure->rounded && narrow(enclosure->box))) return enclosure;
     const auto step = newton_step(tiles, a.x, nullptr);
     if (!step) return enclosure;
     a = {{a.x[0] - d[0], a.x[1] - d[1]}, a.x, step->jacobian};
   }
-}
-
-/// The cubic nets on a box, from tiles.
-void PlaneRoots::make_net(const Tiles& tiles, const Box<2>& box) {
-  for (int i = 0; i < 2; ++i) expand(*tiles[i], box, &sources_[i]);
-  restrict_to(sources_, {{0, 0}, {1, 1}}, &net_);
 }
 
 std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& around, Tiles* tiles) {
@@ -251,9 +252,11 @@ std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& aroun
       tile = &around_tiles_[i];
     }
   }
-  make_net(*tiles, around);
+  for (int i = 0; i < 2; ++i) expand(*(*tiles)[i], around, &sources_[i]);
+  CubicSystem net;
+  cut_off(sources_, &net);
   SystemVerdict verdict;
-  test_system(net_, kQuality, &verdict);
+  test_system(net, kQuality, &verdict);
   if (!verdict.contracts) return std::nullopt;
   return verdict.contraction;
 }
@@ -402,25 +405,25 @@ Box<2> inner_box(const Box<2>& box, const Box<2>& local) {
 /// Whether the slopes of a net tell something about those of the polynomials.
 bool has_slopes(const CubicSystem& net) {
   for (int i = 0; i < 2; ++i)
-    if (!(std::max(net.slope_radius[i][0], net.slope_radius[i][1]) < 0.2 * (net.hi[i] - net.lo[i])))
+    if (!(std::max(net.slope_radius[i][0], net.slope_radius[i][1]) <
+          0.08 * (net.hi[i] - net.lo[i])))
       return false;
   return true;
 }
 
-/// The net on a part of the node's box: from the node's if it is the first look, else from its base
-/// or its tiles.
-void PlaneRoots::look(const PlaneSubdivision<2>::Node& node, const Box<2>& box, bool first) {
-  if (first && has_slopes(node.net)) {
-    restrict_to(node.net, part_of(chart_of(node.box), box), &net_);
-    return;
-  }
-  restrict_to(node.base->source, part_of(node.base->chart, box), &net_);
-  if (coarse(net_, 0)) make_net(node.tile, box);
+/// The net on a part of the node's box: from the one on a larger part, or from the node's base.
+void PlaneRoots::look(const PlaneSubdivision<2>::Node& node, const CubicSystem& last,
+                      const Box<2>& last_box, const Box<2>& box, CubicSystem* net) {
+  if (has_slopes(last))
+    restrict_to(last, part_of(chart_of(last_box), box), net);
+  else
+    restrict_to(node.base->source, part_of(node.base->chart, box), &sources_, net);
 }
 
 std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box<2>* part) {
   test_system(node.net, kQuality, &verdict_);
   Box<2> box = node.box;
+  const CubicSystem* net = &node.net;
   for (int round = 0;; ++round) {
     if (verdict_.excluded) return cover::kExcluded;
     if (verdict_.contracts) return near(node.tile, box, verdict_);
@@ -437,11 +440,14 @@ std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box
     // Where all zeros lie in a small part, a closer look at that part is worth its price.
     if (round == kCloserLooks || zeros.width(0) * zeros.width(1) > 4 * kSmallPart)
       return std::nullopt;
-    box = inner_box(box, zeros);
-    if (!(box.width(0) > 0 && box.width(1) > 0)) return std::nullopt;
-    look(node, box, round == 0);
-    if (net_.excluded()) return cover::kExcluded;
-    test_system(net_, kQuality, &verdict_);
+    const Box<2> inner = inner_box(box, zeros);
+    if (!(inner.width(0) > 0 && inner.width(1) > 0)) return std::nullopt;
+    CubicSystem& next = nets_[round % 2];
+    look(node, *net, box, inner, &next);
+    if (next.excluded()) return cover::kExcluded;
+    test_system(next, kQuality, &verdict_);
+    net = &next;
+    box = inner;
   }
 }
 

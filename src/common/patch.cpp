@@ -295,24 +295,14 @@ constexpr double kUnit = 0x1p-53;
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
 constexpr double kTiny = 0x1p-1000;  // more than what gradual underflow can lose
 
-enum class Basis { Bernstein, Chebyshev };
-
-/// The product of a polynomial and the linear function with the values `minus` and `plus` at the
-/// ends of [-1,1]; Bernstein coefficients are scaled by binomials.
+/// The product of a polynomial in Bernstein form, its coefficients scaled by binomials, and the
+/// linear function with the values `minus` and `plus` at the ends of [-1,1].
 std::vector<Rational> product(const std::vector<Rational>& p, const Rational& minus,
-                              const Rational& plus, Basis basis) {
+                              const Rational& plus) {
   std::vector<Rational> result(p.size() + 1, Rational(0));
-  const Rational mean = (plus + minus) / 2, slope = (plus - minus) / 2;
   for (std::size_t j = 0; j < p.size(); ++j) {
-    if (basis == Basis::Bernstein) {
-      result[j] += p[j] * minus;
-      result[j + 1] += p[j] * plus;
-    } else {
-      // s T_j = (T_(j+1) + T_|j-1|) / 2.
-      result[j] += p[j] * mean;
-      result[j + 1] += p[j] * slope / 2;
-      result[j > 0 ? j - 1 : 1] += p[j] * slope / 2;
-    }
+    result[j] += p[j] * minus;
+    result[j + 1] += p[j] * plus;
   }
   return result;
 }
@@ -331,7 +321,7 @@ std::array<double, 8> chebyshev_nodes(int count) {
 
 /// The coefficients on [-1,1] of the polynomials that are 1 at one node and 0 at the others:
 /// products of linear factors, exactly, then rounded.
-Interpolation make_interpolation(int count, Basis basis) {
+Interpolation make_interpolation(int count) {
   Interpolation table;
   table.count = count;
   table.node = chebyshev_nodes(count);
@@ -343,12 +333,11 @@ Interpolation make_interpolation(int count, Basis basis) {
       if (m == k) continue;
       const Rational step = Rational(table.node[k]) - Rational(table.node[m]);
       of_node = product(of_node, (-1 - Rational(table.node[m])) / step,
-                        (1 - Rational(table.node[m])) / step, basis);
+                        (1 - Rational(table.node[m])) / step);
     }
     Integer choose = 1;
     for (int j = 0; j <= n; ++j) {
-      const Rational entry =
-          basis == Basis::Bernstein ? Rational(of_node[j] / Rational(choose)) : of_node[j];
+      const Rational entry = of_node[j] / Rational(choose);
       table.matrix[j][k] = nearest_double(entry);
       norms[j] += abs(entry);
       choose = choose * (n - j) / (j + 1);
@@ -388,7 +377,7 @@ namespace {
 /// Tables are made when they are first asked for: rational arithmetic takes its time.
 template <int count>
 const Interpolation& interpolation_of() {
-  static const Interpolation table = make_interpolation(count, Basis::Bernstein);
+  static const Interpolation table = make_interpolation(count);
   return table;
 }
 
@@ -514,16 +503,6 @@ void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
                         loss.bend + tile.bend_error * part[1] * part[1],
                         loss.bend + tile.bend_error * part[0] * part[1]};
   add_rounding(patch, e.rounding);
-}
-
-void expand(const Tile& tile, const Box<2>& box, ChebyshevNet* net) {
-  static const Interpolation table = make_interpolation(8, Basis::Chebyshev);
-  const Expanded e = expand_with(table, tile, box, &net->c);
-  // 64 coefficients; derivatives of T_k are at most k^2.
-  net->radius = (e.loss.value + tile.error + 64 * e.rounding) * kUp;
-  for (int i = 0; i < 2; ++i)
-    net->slope_radius[i] =
-        (e.loss.slope + tile.slope_error * e.part[i] + 8 * 140 * e.rounding) * kUp;
 }
 
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper) {

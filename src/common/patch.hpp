@@ -36,8 +36,7 @@ struct Patch {
   double magnitude() const { return hi > -lo ? hi : -lo; }
 };
 
-/// Interpolation at the nodes of Chebyshev, and from there to the coefficients of a basis:
-/// constants.
+/// Interpolation at the nodes of Chebyshev, and from there to Bernstein coefficients: constants.
 struct Interpolation {
   int count = 0;
   alignas(64) std::array<double, 8> node{};
@@ -67,15 +66,6 @@ InterpolationLoss interpolation_loss(const Tile& tile, double part);
 /// The patch with `count` coefficients in either variable (at least patch_count of the tile's
 /// degree) on a box inside the tile's rectangle, rows along x.
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch);
-
-/// A tensor Chebyshev net of degree 7: row i belongs to T_i in x, lane j to T_j in y. The radii are
-/// those of a patch.
-struct ChebyshevNet {
-  alignas(64) std::array<std::array<double, 8>, 8> c;
-  double radius = 0;
-  std::array<double, 2> slope_radius{};
-};
-void expand(const Tile& tile, const Box<2>& box, ChebyshevNet* net);
 
 /// The halves across an axis (their rows run along the other one). Without `whole`, of a half on
 /// which f has a proved sign only that is valid: lo, hi and radius. `patch` may be one of the

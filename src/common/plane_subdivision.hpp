@@ -60,7 +60,7 @@ struct CubicBase {
   std::array<CubicSource, 2> source;
   std::array<const Tile*, 2> tile;  ///< that they come from; their rectangles contain the box
   Chart chart;                      ///< of the box
-  int level;                        ///< of the box
+  int expanded_at;                  ///< the level of the box that was expanded from the tiles
 };
 
 /// The subdivision of a box of the plane, with a patch of one polynomial on the boxes, or with
@@ -158,8 +158,9 @@ class PlaneSubdivision {
   int token_of(Node& node, Visit visit);
   std::optional<int> token_at_gap(const Node& node);
   bool provide_net(Node& node);
-  bool provide_base(Node& node);
-  bool make_cubic(Node& node);
+  bool expand_base(Node& node);
+  bool restrict_base(Node& node);
+  bool use_base(Node& node, CubicBase* base);
   template <class Net>
   bool make_net(const Node& node, int i, Net* net, const Tile** tile);
   bool outside(Node& node) const;
@@ -388,7 +389,7 @@ inline bool coarse(const CubicSource& source, int level) {
 }
 
 inline bool coarse(const CubicSystem& system, int level) {
-  const double of_value = tolerated(level, 0.1), of_slope = tolerated(level, 4);
+  const double of_value = tolerated(level, 0.06), of_slope = tolerated(level, 4);
   for (int i = 0; i < 2; ++i) {
     const double slope_radius = std::max(system.slope_radius[i][0], system.slope_radius[i][1]);
     if (!(system.radius[i] <= of_value * system.magnitude(i) &&
@@ -404,6 +405,32 @@ inline bool is_settled(const TiledFunction& f, const Patch& patch) {
 }
 inline bool is_settled(const TiledFunction& f, const CubicSource& source) {
   return !f.polynomial().is_polynomial() && source.has_sign();
+}
+
+/// Whether nets on a part of a tile's rectangle would be too far from the tile's polynomial by
+/// their low degree.
+inline bool hopeless(const Tile& tile, double part, int, const Patch&) {
+  double size = 0;
+  for (int k = 0; k <= 2; ++k)
+    for (int l = 0; k + l <= 2; ++l) size += std::fabs(tile.a[k][l]);
+  return interpolation_loss(tile, part).slope > 0x1p-4 * size;
+}
+/// (Sources tell by themselves how far they are; it is tried on every other level.)
+inline bool hopeless(const Tile& tile, double, int level, const CubicSource&) {
+  return tile.degree > 7 && level % 2 == 1;
+}
+
+/// What a net lacks by its low degree, of values.
+inline double left_out(const Patch&, const Tile& tile, double part) {
+  return interpolation_loss(tile, part).value;
+}
+inline double left_out(const CubicSource& source, const Tile&, double) { return source.left_out; }
+
+/// Whether a smaller box should have the first net: what a source lacks must not matter on parts of
+/// its box, the more of which there are the larger it is.
+inline bool too_large(const Patch&, double, int) { return false; }
+inline bool too_large(const CubicSource& source, double lost, int level) {
+  return lost > std::ldexp(source.size, std::min(-10, level - 18)) && lost > 0.5 * source.radius;
 }
 
 /// Whether a net says anything of a function.
@@ -424,12 +451,24 @@ inline bool PlaneSubdivision<1>::provide_net(Node& node) {
   return true;
 }
 
-/// Gives the node a base on its own box; false if that is too large, or excluded at once.
+/// Whether the node's cubic nets, which come from its own base, are close enough to the
+/// polynomials, or prove at once that the box is excluded.
 template <>
-inline bool PlaneSubdivision<2>::provide_base(Node& node) {
+inline bool PlaneSubdivision<2>::use_base(Node& node, CubicBase* base) {
+  base->chart = chart_of(node.box);
+  node.base = base;
+  node.has_net = true;
+  node.excluded = node.net.excluded();
+  return node.excluded || !coarse(node.net, node.level);
+}
+
+/// Gives the node a base on its own box from the tiles; false if that is too large, or excluded at
+/// once.
+template <>
+inline bool PlaneSubdivision<2>::expand_base(Node& node) {
   CubicBase& base = bases_[node.level - first_level_];
   base.tile = node.tile;
-  base.level = node.level;
+  base.expanded_at = node.level;
   for (int i = 0; i < 2; ++i) {
     CubicSource& source = base.source[i];
     source.radius = node.has_net ? node.net.radius[i] : HUGE_VAL;
@@ -437,39 +476,36 @@ inline bool PlaneSubdivision<2>::provide_base(Node& node) {
     node.excluded = source.has_sign();
     if (node.excluded) return false;
   }
-  base.chart = chart_of(node.box);
-  node.base = &base;
   node.tile = base.tile;
+  cut_off(base.source, &node.net);
+  use_base(node, &base);
   return true;
 }
 
-/// The node's cubic nets from its base, if something can be expected of them; whether they are
-/// close enough to the polynomials, or prove at once that the box is excluded.
+/// The same from the last base, if something can be expected of it; whether it serves.
 template <>
-inline bool PlaneSubdivision<2>::make_cubic(Node& node) {
-  const CubicBase& base = *node.base;
-  const Part part = part_of(base.chart, node.box);
+inline bool PlaneSubdivision<2>::restrict_base(Node& node) {
+  const CubicBase& from = *node.base;
+  CubicBase& base = bases_[node.level - first_level_];
+  if (&base == &from) return false;
+  const Part part = part_of(from.chart, node.box);
   if (node.level <= kUsualLevels)
-    for (const CubicSource& source : base.source)
-      if (source.radius + cubic_loss(source, part.half).value >
-          0.1 * source.size * std::max(part.half[0], part.half[1]))
-        return false;
-  restrict_to(base.source, part, &node.net);
-  node.has_net = true;
-  node.excluded = node.net.excluded();
-  return node.excluded || !coarse(node.net, node.level);
+    for (const CubicSource& source : from.source)
+      if (source.radius > 0.1 * source.size * std::max(part.half[0], part.half[1])) return false;
+  restrict_to(from.source, part, &base.source, &node.net);
+  base.tile = from.tile;
+  base.expanded_at = from.expanded_at;
+  return use_base(node, &base);
 }
 
 template <>
 inline bool PlaneSubdivision<2>::provide_net(Node& node) {
   if (node.has_net && !coarse(node.net, node.level)) return true;
-  if (node.base && make_cubic(node)) return !node.excluded;
-  // A base of its own, unless the last one is hardly larger.
+  if (node.base && restrict_base(node)) return !node.excluded;
+  // From the tiles, unless that was done on a box that is hardly larger.
   const int between = node.level <= kUsualLevels ? 4 : 1;
-  if (!node.base || node.base->level + between <= node.level) {
-    if (!provide_base(node)) return false;
-    make_cubic(node);
-  }
+  if (!node.base || node.base->expanded_at + between <= node.level)
+    if (!expand_base(node)) return false;
   return node.has_net && !node.excluded;
 }
 
@@ -494,18 +530,14 @@ bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile
     const double part = std::max(parts[0], parts[1]);
     if (part > 1.01) return false;
     const bool within = holds(*tile, node.box);
-    if (!*used) {
-      double size = 0;
-      for (int k = 0; k <= 2; ++k)
-        for (int l = 0; k + l <= 2; ++l) size += std::fabs(tile->a[k][l]);
-      if (interpolation_loss(*tile, part).slope > 0x1p-4 * size) return false;
-    }
+    if (!*used && hopeless(*tile, part, node.level, *net)) return false;
     if (within) {
       make(*tile);
+      const double lost = left_out(*net, *tile, part);
+      if (!*used && too_large(*net, lost, node.level)) return false;
       *used = tile;
-      if (!coarse(*net, node.level)) return true;
       // What is lost by the low degree shrinks with the box.
-      if (interpolation_loss(*tile, part).value > 0.5 * net->radius) return true;
+      if (!coarse(*net, node.level) || lost > 0.5 * net->radius) return true;
     }
   }
   // A tile of the box's own, in double-doubles, then in MPFR.

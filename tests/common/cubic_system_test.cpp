@@ -26,7 +26,7 @@ std::array<CubicSource, 2> sources_on(const Tile& f, const Tile& g, const Box<2>
 
 CubicSystem on_box(const Tile& f, const Tile& g, const Box<2>& box) {
   CubicSystem system;
-  restrict_to(sources_on(f, g, box), {{0, 0}, {1, 1}}, &system);
+  cut_off(sources_on(f, g, box), &system);
   return system;
 }
 
@@ -78,7 +78,115 @@ double expect_true(const CubicSystem& system, const std::array<const Exact*, 2>&
   return needed;
 }
 
+/// What the Chebyshev net says at s: value and derivatives in x and y.
+std::array<Rational, 3> jet(const CubicSource& source, const RationalPoint<2>& s) {
+  std::array<std::array<Rational, 8>, 2> t, slope;
+  for (int k = 0; k < 2; ++k) {
+    t[k] = {1, s[k]};
+    slope[k] = {0, 1};
+    for (int i = 2; i < 8; ++i) {
+      t[k][i] = 2 * s[k] * t[k][i - 1] - t[k][i - 2];
+      slope[k][i] = 2 * t[k][i - 1] + 2 * s[k] * slope[k][i - 1] - slope[k][i - 2];
+    }
+  }
+  std::array<Rational, 3> result{0, 0, 0};
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      const int x = source.rows_axis == 0 ? i : j, y = source.rows_axis == 0 ? j : i;
+      const Rational c(source.c[i][j]);
+      result[0] += c * t[0][x] * t[1][y];
+      result[1] += c * slope[0][x] * t[1][y];
+      result[2] += c * t[0][x] * slope[1][y];
+    }
+  return result;
+}
+
+/// The polynomial is as far from the source's net as its radii say, or less, at some points; and
+/// its size is that of the coefficients, of which there are no more than it says. Returns the share
+/// of the radii that is needed.
+double expect_true(const CubicSource& source, const Exact& exact, const Box<2>& box,
+                   Random& random) {
+  double sum = 0, needed = 0;
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      sum += std::fabs(source.c[i][j]);
+      if (std::max(i, j) >= source.count) {
+        EXPECT_EQ(source.c[i][j], 0);
+      }
+    }
+  EXPECT_GE(source.size, sum);
+  EXPECT_LE(source.size, 1.001 * sum + 1e-300);
+  EXPECT_GE(source.radius, source.left_out);
+  for (int round = 0; round < 4; ++round) {
+    RationalPoint<2> s = random_point(random);
+    if (round == 0) s = {Rational(1), Rational(1)};
+    if (round == 1) s[1] = -1;
+    const Jet2 f = exact.at(box, s);
+    const auto net = jet(source, s);
+    const Rational off[3] = {abs(f.value - net[0]), abs(f.x - net[1]), abs(f.y - net[2])};
+    const double radius[3] = {source.radius, source.slope_radius[0], source.slope_radius[1]};
+    for (int d = 0; d < 3; ++d) {
+      EXPECT_LE(off[d], Rational(radius[d]));
+      needed = std::max(needed, off[d].get_d() / radius[d]);
+    }
+  }
+  return needed;
+}
+
 class CubicsOfDegree : public testing::TestWithParam<int> {};
+
+/// Sources on parts of tiles, and on parts of their boxes, again and again.
+TEST_P(CubicsOfDegree, SourcesAreAsCloseAsTheySay) {
+  const int degree = GetParam();
+  Random random(static_cast<std::uint64_t>(degree) + 90);
+  const FilteredFunction<2> f(random_polynomial(degree, random)),
+      g(random_polynomial(degree / 2, random));
+  const Exact exact_f(f), exact_g(g);
+  const std::array<const Exact*, 2> exact{&exact_f, &exact_g};
+  Kernel kernel;
+  const Box<2> root{{-1, -1}, {1, 1}};
+  TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
+  double needed = 0;
+  for (int level = 0; level < 5; ++level) {
+    const Box<2> whole = random_box(level / 2, random);
+    Tile tile_f, tile_g;
+    of_f.expand(whole, 53, &tile_f);
+    of_g.expand(whole, 53, &tile_g);
+    // Halvings lead to the parts of the first steps, the last one is any.
+    Box<2> box = whole;
+    std::array<CubicSource, 2> sources = sources_on(tile_f, tile_g, whole);
+    for (int step = 0; step < 5; ++step) {
+      Box<2> part = box;
+      for (int i = 0; i < 2; ++i) {
+        const int count = 1 << (random() % 4), index = static_cast<int>(random()) & (count - 1);
+        part.lo[i] = box.lo[i] + box.width(i) * index / count;
+        part.hi[i] = part.lo[i] + box.width(i) / count;
+        if (step == 4) part.lo[i] += 0.37 * part.width(i);
+      }
+      std::array<CubicSource, 2> restricted;
+      CubicSystem system, cut;
+      restrict_to(sources, part_of(chart_of(box), part), &restricted, &system);
+      cut_off(restricted, &cut);
+      EXPECT_EQ(system.b, cut.b);
+      EXPECT_EQ(system.radius, cut.radius);
+      EXPECT_EQ(system.slope_radius, cut.slope_radius);
+      const auto fresh = sources_on(tile_f, tile_g, part);
+      for (int k = 0; k < 2; ++k) {
+        EXPECT_EQ(restricted[k].rows_axis, 1 - sources[k].rows_axis);
+        expect_true(restricted[k], *exact[k], part, random);
+        const double share = expect_true(fresh[k], *exact[k], part, random);
+        if (k == 0) needed = std::max(needed, share);
+      }
+      expect_true(system, exact, part, random);
+      sources = restricted;
+      box = part;
+    }
+  }
+  // The bounds are not idle.
+  if (degree >= 8) {
+    EXPECT_GT(needed, 0.1);
+  }
+}
 
 TEST_P(CubicsOfDegree, AreAsCloseAsTheySay) {
   const int degree = GetParam();
@@ -97,13 +205,7 @@ TEST_P(CubicsOfDegree, AreAsCloseAsTheySay) {
     of_f.expand(base, 53, &tile_f);
     of_g.expand(base, 53, &tile_g);
     const auto sources = sources_on(tile_f, tile_g, base);
-    for (const CubicSource& source : sources) {
-      double sum = 0;
-      for (const auto& row : source.c)
-        for (const double c : row) sum += std::fabs(c);
-      EXPECT_GE(source.size, sum);
-      EXPECT_LE(source.size, 1.001 * sum + 1e-300);
-    }
+    for (int k = 0; k < 2; ++k) expect_true(sources[k], *exact[k], base, random);
     // A part, often at the border, where fourth derivatives are largest.
     Box<2> box = base;
     for (int i = 0; i < 2; ++i) {
@@ -113,8 +215,9 @@ TEST_P(CubicsOfDegree, AreAsCloseAsTheySay) {
       box.hi[i] = box.lo[i] + width;
     }
     CubicSystem system;
-    restrict_to(sources, part_of(chart_of(base), box), &system);
-    EXPECT_EQ(system.rows_axis, 0);
+    std::array<CubicSource, 2> restricted;
+    restrict_to(sources, part_of(chart_of(base), box), &restricted, &system);
+    EXPECT_EQ(system.rows_axis, sources[0].rows_axis);
     needed = std::max(needed, expect_true(system, exact, box, random));
     // Halves and parts of it.
     for (int step = 0; step < 9; ++step) {
@@ -181,7 +284,7 @@ TEST_P(CubicsOfDegree, SignsAreTheirs) {
         ++of_sources;
       }
     CubicSystem system, halves[2];
-    restrict_to(sources, {{0, 0}, {1, 1}}, &system);
+    cut_off(sources, &system);
     if (system.excluded()) {
       EXPECT_TRUE(signs_seen(0, -1, 1) != 3 || signs_seen(1, -1, 1) != 3);
     }
