@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Shows an encasement of surfaces in ParaView in sensible colours.
 
-    encase surfaces examples/sphere_and_saddle.surfaces -o out --history
+    encase surfaces -e "x^2 + y^2 + z^2 = 1" -e "z = x y" --region "box -2 2 -2 2 -2 2" -o out
     pvpython examples/paraview/open_surfaces.py out picture.png
     pvpython examples/paraview/open_surfaces.py out picture.png cells
 
@@ -14,9 +14,8 @@ pipeline stays open to play with:
 import os
 import sys
 
-from paraview.simple import (ColorBy, GetActiveViewOrCreate,
-                             GetColorTransferFunction, Render, ResetCamera, SaveScreenshot, Show,
-                             XMLPolyDataReader)
+from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetColorTransferFunction, Render,
+                             ResetCamera, SaveScreenshot, Show, XMLPolyDataReader)
 
 # Okabe and Ito's colours, which people with any colour vision can tell apart, lightened.
 SURFACE_COLOURS = [(0.45, 0.70, 0.86), (0.93, 0.66, 0.40), (0.45, 0.78, 0.66), (0.89, 0.71, 0.82),
