@@ -211,6 +211,20 @@ TEST(SingularCurve, ThatIsNearlyOneIsCertified) {
   }
 }
 
+/// A result that hides an open cell, or names one twice, is no proof.
+TEST(SingularCurve, NamesEveryOpenCellOnce) {
+  const SurfaceEncasement good = encased({"x*y"}, 1);
+  ASSERT_EQ(good.outcome, Outcome::Degenerate);
+  ASSERT_FALSE(good.degenerate[0].cells.empty());
+  EXPECT_TRUE(verify(good).ok());
+  SurfaceEncasement hidden = good;
+  hidden.degenerate[0].cells.pop_back();
+  EXPECT_FALSE(verify(hidden).ok());
+  SurfaceEncasement twice = good;
+  twice.degenerate.push_back(good.degenerate[0]);
+  EXPECT_FALSE(verify(twice).ok());
+}
+
 TEST(SingularCurve, OfBadOptionsIsRefused) {
   SurfaceOptions options;
   options.singular_width = 0;

@@ -23,6 +23,23 @@ TEST(SurfaceResultJson, ReadsBackTheSameBytes) {
   EXPECT_EQ(read.value().encasement.triple_points.size(), 2u);
 }
 
+TEST(SurfaceResultJson, ReadsBackWhatIsDegenerate) {
+  auto result = encase({{"planes", written::polynomial<3>("x*y")}},
+                       make_box({-1, -1, -1}, {1, 1, 1}).value());
+  ASSERT_TRUE(result);
+  SurfaceEncasement& e = result.value();
+  ASSERT_FALSE(e.degenerate.empty());
+  e.perturbation = 0.25;
+  e.seed = 7;
+  const std::string text = to_json(e);
+  const auto read = surfaces_from_json(text, "sample.json");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(to_json(read.value().encasement) == text);  // (too long to be compared by gtest)
+  EXPECT_EQ(read.value().encasement.degenerate[0].cells, e.degenerate[0].cells);
+  EXPECT_EQ(read.value().encasement.perturbation, 0.25);
+  EXPECT_EQ(read.value().encasement.seed, 7u);
+}
+
 TEST(SurfaceResultJson, RefusesWhatRefersToNothing) {
   const nlohmann::json good = nlohmann::json::parse(to_json(sample()));
   const auto refused = [&](const char* pointer, const nlohmann::json& value) {
