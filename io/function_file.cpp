@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "common/expression_program.hpp"
+#include "common/wording.hpp"
 #include "expression_parser.hpp"
 #include "json_tree.hpp"
 #include "region_text.hpp"
@@ -46,7 +47,7 @@ std::string in_quotes(std::string_view text) { return "'" + std::string(text) + 
 
 /// What a file has, and how it is called.
 template <int D>
-const std::string kNoun = D == 2 ? "curve" : "surface";
+const std::string kNoun = kZeroSet<D>;
 
 /// Why the zeros of an expression are no curve or surface, or nothing.
 template <int D>

@@ -9,6 +9,7 @@
 #include "2d/caps_graph.hpp"
 #include "2d/caps_tree.hpp"
 #include "2d/curve_bounds.hpp"
+#include "common/input_functions.hpp"
 #include "common/run_clock.hpp"
 
 namespace encase {
@@ -27,23 +28,17 @@ bool is_rectangle(const Region& region) {
   return true;
 }
 
-bool is_constant(const Function<2>& f) {
-  if (f.is_polynomial()) return f.polynomial().is_constant();
-  return f.is_expression() && !f.expression().uses(0) && !f.expression().uses(1);
-}
-
 Status check_input(const std::vector<NamedCurve>& curves, const Region& region,
                    const CapsOptions& options) {
   if (curves.empty()) return bad_input("there are no curves");
-  for (const NamedCurve& curve : curves)
-    if (is_constant(curve.function))
-      return bad_input("curve '" + curve.name + "' is a constant: it has no points, or all");
   if (!is_rectangle(region))
     return bad_input(
         "CAPS subdivides a rectangle along the axes: give the region as \"xmin xmax ymin ymax\"");
   const Box<2> box = region.bounding_box();
   if (!std::isfinite(box.width(0)) || !std::isfinite(box.width(1)))
     return bad_input("the region is too large");
+  for (const NamedCurve& curve : curves)
+    if (Status bad = check_function(curve, box)) return bad;
   if (!(options.epsilon > 0) || !std::isfinite(options.epsilon))
     return bad_input("epsilon must be a positive number");
   if (options.epsilon > box.width(0) || options.epsilon > box.width(1))

@@ -61,9 +61,6 @@ class Encaser {
     double part_done() const { return static_cast<double>(done) / count; }
   };
   void run(Tasks& tasks, const std::function<void(int index)>& task);
-  Status check_other(const NamedCurve& curve) const;
-  void separate_polynomials();
-  void separate_others();
   bool open_polygon();
   bool open_plane();
   SubdivisionLimits limits(Tasks& tasks, Unresolved::Kind kind, const Box<2>& root);

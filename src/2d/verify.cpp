@@ -7,6 +7,8 @@
 #include <iterator>
 
 #include "common/parallel.hpp"
+#include "common/verify_functions.hpp"
+#include "common/well_formed.hpp"
 #include "verify_claims.hpp"
 
 namespace encase {
@@ -41,55 +43,12 @@ void for_each(Claims& claims, std::size_t count,
 
 namespace {
 
-bool finite(double a) { return std::isfinite(a); }
-bool finite(const Point<2>& p) { return finite(p[0]) && finite(p[1]); }
-bool ordered(const Box<2>& b) {
-  return finite(b.lo) && finite(b.hi) && b.lo[0] <= b.hi[0] && b.lo[1] <= b.hi[1];
-}
-bool has_interior(const Box<2>& b) { return ordered(b) && b.lo[0] < b.hi[0] && b.lo[1] < b.hi[1]; }
-template <class T>
-bool in_range(int index, const std::vector<T>& list) {
-  return index >= 0 && static_cast<std::size_t>(index) < list.size();
-}
-bool ascending(const std::vector<int>& list) {
-  for (std::size_t i = 1; i < list.size(); ++i)
-    if (list[i - 1] >= list[i]) return false;
-  return true;
-}
-bool proper(const Rational& q) { return mpz_sgn(mpq_denref(q.get_mpq_t())) > 0; }
-
-bool is_curve(const Polynomial<2>& f) {
-  for (const auto& term : f.terms())
-    if (term.exponent[0] < 0 || term.exponent[1] < 0 || term.exponent[0] > kMaxDegree ||
-        term.exponent[1] > kMaxDegree || !proper(term.coefficient))
-      return false;
-  return f.degree() >= 1 && f.degree() <= kMaxDegree;
-}
-
-/// (That operations have their operands, earlier ones, is so by construction.)
-bool is_curve(const Expression& f) {
-  for (const Expression::Step& step : f.steps())
-    if (step.operation == Operation::Constant && !proper(step.constant)) return false;
-  return (f.uses(0) || f.uses(1)) && !f.uses(2);
-}
-
-}  // namespace
-
-bool is_curve(const Function<2>& function) {
-  if (function.is_inclusion()) return true;
-  return function.is_polynomial() ? is_curve(function.polynomial())
-                                  : is_curve(function.expression());
-}
-
-namespace {
-
 void check_function(Claims& claims, const char* name, std::size_t i, const Function<2>& function) {
   if (function.is_polynomial()) {
-    claims.require(is_curve(function.polynomial()), name, " ", i,
-                   " is not a polynomial of degree 1 to ", kMaxDegree, ".");
+    claims.require(is_proper(function), name, " ", i, " is not a polynomial of degree 1 to ",
+                   kMaxDegree, ".");
   } else {
-    claims.require(function.is_inclusion() || is_curve(function.expression()), name, " ", i,
-                   " is not an expression in x and y.");
+    claims.require(is_proper(function), name, " ", i, " is not an expression in x and y.");
     claims.require(!claims.result.region.plane, name, " ", i,
                    " is no polynomial: nothing is proved of it in the whole plane.");
   }
@@ -127,9 +86,9 @@ void check_input_structure(Claims& claims) {
   for (std::size_t i = 0; i < e.curves.size(); ++i) {
     const Curve& curve = e.curves[i];
     check_function(claims, "Curve", i, curve.function);
-    bool sources = !curve.sources.empty() && ascending(curve.sources);
-    for (int s : curve.sources) sources = sources && in_range(s, e.input);
-    claims.require(sources, "Curve ", i, " does not name ascending indices of input curves.");
+    claims.require(
+        !curve.sources.empty() && ascending(curve.sources) && all_in_range(curve.sources, e.input),
+        "Curve ", i, " does not name ascending indices of input curves.");
   }
   claims.require(e.region.plane ? e.region.corners.empty() : is_region(e.region),
                  "The region is not a polygon with rational corners.");

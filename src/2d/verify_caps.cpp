@@ -12,29 +12,12 @@
 #include <vector>
 
 #include "common/union_find.hpp"
+#include "common/verify_functions.hpp"
+#include "common/well_formed.hpp"
 
 namespace encase {
 namespace verification {
 namespace {
-
-template <class T>
-bool in_range(int index, const std::vector<T>& list) {
-  return index >= 0 && static_cast<std::size_t>(index) < list.size();
-}
-
-template <class T>
-bool all_in_range(const std::vector<int>& indices, const std::vector<T>& list) {
-  return std::all_of(indices.begin(), indices.end(), [&](int k) { return in_range(k, list); });
-}
-
-bool strictly_ascending(const std::vector<int>& list) {
-  return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
-}
-
-bool finite(const Point<2>& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); }
-bool ordered(const Box<2>& b) {
-  return finite(b.lo) && finite(b.hi) && b.lo[0] <= b.hi[0] && b.lo[1] <= b.hi[1];
-}
 
 bool is_label(CapsLabel label) {
   return label >= CapsLabel::Empty && label <= CapsLabel::Indeterminate;
@@ -47,14 +30,14 @@ void check_header(CapsClaims& claims) {
   claims.require(std::isfinite(r.epsilon) && r.epsilon > 0 && r.delta == 2 * r.epsilon,
                  "Epsilon is not positive, or delta not twice that.");
   claims.require(ordered(r.box) && r.box.width(0) > 0 && r.box.width(1) > 0 &&
-                     finite({r.box.width(0), r.box.width(1)}),
+                     finite(Point<2>{r.box.width(0), r.box.width(1)}),
                  "The box has no area.");
   claims.require(!r.curves.empty(), "There are no curves.");
   for (std::size_t c = 0; c < r.curves.size(); ++c)
-    claims.require(is_curve(r.curves[c].function), "Curve ", c, " is a constant, or too large.");
+    claims.require(is_proper(r.curves[c].function), "Curve ", c, " is a constant, or too large.");
   bool sets = !r.curve_sets.empty() && r.curve_sets[0].empty();
   for (const std::vector<int>& set : r.curve_sets)
-    sets = sets && strictly_ascending(set) && all_in_range(set, r.curves);
+    sets = sets && ascending(set) && all_in_range(set, r.curves);
   sets = sets && std::set(r.curve_sets.begin(), r.curve_sets.end()).size() == r.curve_sets.size();
   claims.require(sets, "The sets of curves are not different ones, the first of them empty.");
 }

@@ -11,17 +11,13 @@
 #include "common/filtered_function.hpp"
 #include "common/interval.hpp"
 #include "common/kernel.hpp"
+#include "common/reporter.hpp"
 #include "encase/verify.hpp"
 
 /// The claims of an encasement, group by group in the order in which `verify` re-proves them.
 /// Nothing here trusts the search: what is asked are read-only statements about single boxes,
 /// segments and points (`box_tests.hpp`, `segments.hpp`) and exact arithmetic.
 namespace encase::verification {
-
-inline void append(std::string& text, const char* part) { text += part; }
-inline void append(std::string& text, const std::string& part) { text += part; }
-inline void append(std::string& text, int part) { text += std::to_string(part); }
-inline void append(std::string& text, std::size_t part) { text += std::to_string(part); }
 
 /// What all checks share: the result under test and its curves prepared for questions.
 struct Facts {
@@ -32,38 +28,6 @@ struct Facts {
   /// For every split token of the shared cover the token at which its upper half begins; empty if
   /// there is no proper one.
   std::vector<std::size_t> upper_half{};
-};
-
-/// Counts claims and keeps objections.
-struct Reporter {
-  explicit Reporter(const VerifyOptions& options)
-      : max_objections(options.max_objections > 1 ? options.max_objections : 1) {}
-
-  /// Counts a claim that is proved, and objects to one that is not in a sentence made of `parts`.
-  template <class... Parts>
-  bool require(bool proved, const Parts&... parts) {
-    if (proved) {
-      ++report.claims;
-      return true;
-    }
-    if (!full()) {
-      std::string sentence;
-      (append(sentence, parts), ...);
-      report.objections.push_back(std::move(sentence));
-    }
-    return false;
-  }
-  /// Takes over what another verification found, of an item that is named.
-  void include(const std::string& of, const Verification& other) {
-    report.claims += other.claims;
-    for (const std::string& objection : other.objections)
-      if (!full()) report.objections.push_back(of + ": " + objection);
-  }
-  /// Enough objections: checking more would only take time.
-  bool full() const { return static_cast<int>(report.objections.size()) >= max_objections; }
-
-  int max_objections;
-  Verification report;
 };
 
 /// The facts, the precision ladder, and the report. Not shared between threads: see `for_each`.
@@ -91,9 +55,6 @@ struct Claims : Reporter {
 /// the order of i, up to the most objections. So the outcome does not depend on the threads.
 void for_each(Claims& claims, std::size_t count,
               const std::function<void(Claims& part, std::size_t i)>& check);
-
-/// A polynomial of degree 1 to kMaxDegree, or an expression in x and y that is no constant.
-bool is_curve(const Function<2>& function);
 
 /// Every index is in range, every number finite, every box ordered, every enumerator named. All
 /// later checks rely on it: false ends the verification.

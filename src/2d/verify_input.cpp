@@ -1,150 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "common/box_tests.hpp"
-#include "common/components.hpp"
 #include "common/substitute.hpp"
+#include "common/verify_functions.hpp"
 #include "verify_claims.hpp"
 
 namespace encase::verification {
 
 namespace {
-
-/// Whether f = c g for a constant c.
-bool proportional(const Polynomial<2>& f, const Polynomial<2>& g) {
-  if (f == g) return true;
-  if (f.terms().size() != g.terms().size() || f.is_zero()) return false;
-  const Rational ratio = f.terms()[0].coefficient / g.terms()[0].coefficient;
-  for (std::size_t k = 0; k < f.terms().size(); ++k)
-    if (f.terms()[k].exponent != g.terms()[k].exponent ||
-        f.terms()[k].coefficient != ratio * g.terms()[k].coefficient)
-      return false;
-  return true;
-}
-
-/// The indices of the functions in a list that are polynomials, or of those that are none.
-template <class Named>
-std::vector<int> of_kind(const std::vector<Named>& list, bool polynomials) {
-  std::vector<int> indices;
-  for (std::size_t k = 0; k < list.size(); ++k)
-    if (list[k].function.is_polynomial() == polynomials) indices.push_back(static_cast<int>(k));
-  return indices;
-}
-
-const Function<2>& input_function(const Encasement& e, int i) {
-  return e.input[static_cast<std::size_t>(i)].function;
-}
-const Curve& curve_at(const Encasement& e, int c) { return e.curves[static_cast<std::size_t>(c)]; }
-
-/// Whether the curves are, up to constants, the input curves one by one: of those that are
-/// polynomials.
-bool one_to_one(const Encasement& e, const std::vector<int>& inputs,
-                const std::vector<int>& curves) {
-  std::set<int> seen;
-  for (const int c : curves) {
-    const Curve& curve = curve_at(e, c);
-    if (curve.sources.size() != 1 || !seen.insert(curve.sources[0]).second) return false;
-    const Function<2>& source = input_function(e, curve.sources[0]);
-    if (!source.is_polynomial() || !proportional(curve.function.polynomial(), source.polynomial()))
-      return false;
-  }
-  return seen.size() == inputs.size();
-}
-
-/// The polynomials' common refinement assigns every irreducible factor its sources.
-void check_factors(Claims& claims, std::set<int>* repeated) {
-  const Encasement& e = claims.result;
-  const std::vector<int> all_inputs = of_kind(e.input, true), all_curves = of_kind(e.curves, true);
-  const bool generic = one_to_one(e, all_inputs, all_curves);
-  std::vector<Polynomial<2>> polynomials;
-  if (!generic)
-    for (const int i : all_inputs) polynomials.push_back(input_function(e, i).polynomial());
-  const std::size_t first_curve = polynomials.size();
-  for (const int c : all_curves) polynomials.push_back(curve_at(e, c).function.polynomial());
-
-  for (const auto& element : coprime_square_free_base(polynomials)) {
-    std::vector<int> inputs, curves;
-    for (const auto& source : element.sources) {
-      const auto k = static_cast<std::size_t>(source.index);
-      if (k < first_curve) {
-        inputs.push_back(all_inputs[k]);
-        if (source.multiplicity > 1) repeated->insert(inputs.back());
-      } else {
-        curves.push_back(all_curves[k - first_curve]);
-        claims.require(source.multiplicity == 1, "Curve ", curves.back(),
-                       " has a repeated component.");
-      }
-    }
-    // Every factor in one curve alone: the curves are coprime, and no component is missing.
-    if (curves.size() > 1)
-      claims.require(false, "Curves ", curves[0], " and ", curves[1], " share a component.");
-    else if (curves.empty())
-      claims.require(false, "A component of input curve ", inputs[0], " is in no curve.");
-    else if (!generic)
-      claims.require(inputs == curve_at(e, curves[0]).sources, "Curve ", curves[0],
-                     " does not have the components that its sources say.");
-  }
-}
-
-/// What is no polynomial is taken as it is, equal ones once. (That they have no component in
-/// common, and none twice, is not known beforehand: where they had one, no cover could be proved.)
-void check_others(Claims& claims) {
-  const Encasement& e = claims.result;
-  std::vector<int> count(e.input.size(), 0);
-  for (const int c : of_kind(e.curves, false)) {
-    std::vector<int> equal;
-    for (const int i : of_kind(e.input, false))
-      if (input_function(e, i) == curve_at(e, c).function) equal.push_back(i);
-    for (const int i : equal) ++count[static_cast<std::size_t>(i)];
-    claims.require(equal == curve_at(e, c).sources, "Curve ", c,
-                   " is not the function of its sources, or not of them alone.");
-  }
-  for (const int i : of_kind(e.input, false))
-    claims.require(count[static_cast<std::size_t>(i)] == 1, "The function of input curve ", i,
-                   " is not that of one curve.");
-}
-
-/// The reported components are those there are.
-void check_components(Claims& claims, const std::set<int>& repeated) {
-  const Encasement& e = claims.result;
-  using Kind = Unresolved::Kind;
-  for (const Unresolved& u : e.undecided)
-    claims.require(u.kind != Kind::SharedComponent && u.kind != Kind::RepeatedComponent,
-                   "A shared or repeated component is listed as undecided.");
-  std::set<int> reported;
-  std::set<std::pair<int, int>> reported_pairs;
-  for (std::size_t i = 0; i < e.degenerate.size() && !claims.full(); ++i) {
-    const Unresolved& u = e.degenerate[i];
-    if (u.kind == Kind::RepeatedComponent) {
-      reported.insert(u.curves.begin(), u.curves.end());
-      claims.require(!u.curves.empty() && std::includes(repeated.begin(), repeated.end(),
-                                                        u.curves.begin(), u.curves.end()),
-                     "Degenerate entry ", i, " reports a repeated component that is not there.");
-    }
-    if (u.kind == Kind::SharedComponent) {
-      for (std::size_t k = 0; k < u.curves.size(); ++k)
-        for (std::size_t l = 0; l < k; ++l) reported_pairs.insert({u.curves[l], u.curves[k]});
-      const bool shared =
-          u.curves.size() > 1 && std::any_of(e.curves.begin(), e.curves.end(), [&](const Curve& c) {
-            return std::includes(c.sources.begin(), c.sources.end(), u.curves.begin(),
-                                 u.curves.end());
-          });
-      claims.require(shared, "Degenerate entry ", i,
-                     " reports a shared component that is not there.");
-    }
-  }
-  for (int k : repeated)
-    claims.require(reported.count(k) > 0, "The repeated component of input curve ", k,
-                   " is not reported.");
-  for (const Curve& curve : e.curves)
-    for (std::size_t k = 0; k < curve.sources.size(); ++k)
-      for (std::size_t l = 0; l < k; ++l)
-        claims.require(reported_pairs.count({curve.sources[l], curve.sources[k]}) > 0,
-                       "The component that input curves ", curve.sources[l], " and ",
-                       curve.sources[k], " share is not reported.");
-}
 
 using Vector = RationalPoint<2>;
 
@@ -248,10 +113,12 @@ void check_infinity(Claims& claims) {
 }  // namespace
 
 void check_curves(Claims& claims) {
-  std::set<int> repeated;
-  check_factors(claims, &repeated);
-  check_others(claims);
-  check_components(claims, repeated);
+  const Encasement& e = claims.result;
+  FunctionClaims<2> functions{e.input};
+  for (const Curve& c : e.curves) functions.encased.push_back({c.function, c.sources});
+  for (const Unresolved& u : e.degenerate) functions.degenerate.push_back({u.kind, u.curves});
+  for (const Unresolved& u : e.undecided) functions.undecided.push_back({u.kind, u.curves});
+  check_functions(claims, functions);
 }
 
 bool check_regions(Claims& claims) {

@@ -8,35 +8,12 @@
 #include <utility>
 
 #include "3d/solid_sides.hpp"
-#include "common/filtered_inclusion.hpp"
+#include "common/input_functions.hpp"
 #include "common/isolate_roots.hpp"
 #include "common/run_clock.hpp"
 
 namespace encase {
 namespace {
-
-std::optional<Error> complaint(const NamedSurface& surface, const Box<3>& box) {
-  const auto bad = [&](const std::string& what) {
-    return Error{Error::Code::BadInput, "surface '" + surface.name + "' " + what};
-  };
-  if (surface.function.is_inclusion()) {
-    const auto trouble = complaint(surface.function.inclusion(), box);
-    if (trouble) return bad("has an inclusion function that " + *trouble);
-    return std::nullopt;
-  }
-  if (!surface.function.is_polynomial()) {
-    const Expression& f = surface.function.expression();
-    if (!f.uses(0) && !f.uses(1) && !f.uses(2)) return bad("has none of x, y and z");
-    return std::nullopt;
-  }
-  const Polynomial<3>& f = surface.function.polynomial();
-  if (f.is_zero()) return bad("is zero: every point lies on it");
-  if (f.is_constant()) return bad("is a constant: no point lies on it");
-  if (f.degree() > kMaxDegree)
-    return bad("has degree " + std::to_string(f.degree()) + "; the largest is " +
-               std::to_string(kMaxDegree));
-  return std::nullopt;
-}
 
 /// A place made of unresolved leaves.
 struct Place {
@@ -130,7 +107,7 @@ Result<CommonPoints> common_points(const std::array<NamedSurface, 3>& surfaces,
                  "the processor must round to nearest while common points are sought; call "
                  "std::fesetround(FE_TONEAREST)"};
   for (const NamedSurface& surface : surfaces)
-    if (auto error = complaint(surface, region.bounding_box())) return *error;
+    if (Status bad = check_function(surface, region.bounding_box())) return *bad;
   RunClock clock;
   CommonPoints result;
   result.surfaces = surfaces;

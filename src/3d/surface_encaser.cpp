@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "3d/arc_direction.hpp"
@@ -12,6 +11,7 @@
 #include "3d/pair_critical_points.hpp"
 #include "3d/solid_region.hpp"
 #include "3d/solid_sides.hpp"
+#include "common/wording.hpp"
 #include "common/isolate_roots.hpp"
 #include "common/parallel.hpp"
 
@@ -41,12 +41,6 @@ std::optional<Sign> side(const HalfSpace& half_space, const Box<3>& box) {
 }
 
 }  // namespace
-
-std::string SurfaceEncaser::decimal(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
 
 SurfaceEncaser::SurfaceEncaser(const std::vector<NamedSurface>& input, const Polyhedron& region,
                                const SurfaceOptions& options)

@@ -39,13 +39,10 @@ class SurfaceEncaser {
   SurfaceEncasement take_result() { return std::move(result_); }
 
  private:
-  static std::string decimal(double x);
   bool out_of_budget();
   bool stop(const char* stage);
   void share_out(int count, const std::function<void(int, Kernel&)>& work);
   SubdivisionLimits limits(const char* stage);
-  void separate_polynomials();
-  void separate_others();
   void leave_open(UnresolvedInSpace* entry) const;
   void add_unresolved(UnresolvedInSpace entry);
   void report_boxes(const std::vector<Box<3>>& boxes, UnresolvedInSpace entry,

@@ -6,6 +6,7 @@
 
 #include "3d/box_clusters.hpp"
 #include "3d/surface_encaser.hpp"
+#include "common/wording.hpp"
 
 namespace encase {
 

@@ -5,52 +5,14 @@
 #include <set>
 
 #include "3d/verify_space_claims.hpp"
-#include "common/components.hpp"
+#include "common/verify_functions.hpp"
+#include "common/well_formed.hpp"
 
 namespace encase {
 
 namespace verification {
 
 namespace {
-
-bool finite(double a) { return std::isfinite(a); }
-bool finite(const Point<3>& p) { return finite(p[0]) && finite(p[1]) && finite(p[2]); }
-bool ordered(const Box<3>& b) {
-  return finite(b.lo) && finite(b.hi) && b.lo[0] <= b.hi[0] && b.lo[1] <= b.hi[1] &&
-         b.lo[2] <= b.hi[2];
-}
-bool has_interior(const Box<3>& b) {
-  return ordered(b) && b.lo[0] < b.hi[0] && b.lo[1] < b.hi[1] && b.lo[2] < b.hi[2];
-}
-template <class T>
-bool in_range(int index, const std::vector<T>& list) {
-  return index >= 0 && static_cast<std::size_t>(index) < list.size();
-}
-template <class T>
-bool all_in_range(const std::vector<int>& indices, const std::vector<T>& list) {
-  return std::all_of(indices.begin(), indices.end(), [&](int i) { return in_range(i, list); });
-}
-/// Strictly.
-template <class List>
-bool ascending(const List& list) {
-  return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
-}
-bool proper(const Rational& q) { return mpz_sgn(mpq_denref(q.get_mpq_t())) > 0; }
-
-bool is_surface(const Function<3>& f) {
-  if (f.is_polynomial()) {
-    for (const auto& term : f.polynomial().terms()) {
-      for (const int e : term.exponent)
-        if (e < 0 || e > kMaxDegree) return false;
-      if (!proper(term.coefficient)) return false;
-    }
-    return f.polynomial().degree() >= 1 && f.polynomial().degree() <= kMaxDegree;
-  }
-  if (f.is_inclusion()) return true;
-  for (const Expression::Step& step : f.expression().steps())
-    if (step.operation == Operation::Constant && !proper(step.constant)) return false;
-  return f.expression().uses(0) || f.expression().uses(1) || f.expression().uses(2);
-}
 
 bool is_polyhedron(const Polyhedron& p) {
   for (const HalfSpace& side : p.sides)
@@ -75,10 +37,10 @@ bool is_axis_parallel(const Plane& plane) {
 void check_input_structure(SpaceClaims& claims) {
   const SurfaceEncasement& e = claims.result;
   for (std::size_t k = 0; k < e.input.size(); ++k)
-    claims.require(is_surface(e.input[k].function), "Input surface ", k,
+    claims.require(is_proper(e.input[k].function), "Input surface ", k,
                    " has no proper polynomial or expression.");
   for (std::size_t k = 0; k < e.surfaces.size(); ++k) {
-    claims.require(is_surface(e.surfaces[k].function), "Surface ", k,
+    claims.require(is_proper(e.surfaces[k].function), "Surface ", k,
                    " has no proper polynomial or expression.");
     const std::vector<int>& sources = e.surfaces[k].sources;
     claims.require(!sources.empty() && ascending(sources) && all_in_range(sources, e.input),
@@ -127,7 +89,7 @@ void check_list_structure(SpaceClaims& claims) {
   for (std::size_t k = 0; k < e.critical_points.size(); ++k) {
     const CurveCriticalPoints& c = e.critical_points[k];
     claims.require(is_pair(c.surfaces, e) && finite(c.direction) && has_interior(c.root) &&
-                       std::all_of(c.points.begin(), c.points.end(), has_interior) &&
+                       std::all_of(c.points.begin(), c.points.end(), has_interior<3>) &&
                        are_tokens(c.tokens, c.points),
                    "List ", k, " of critical points has a bad index, box or token.");
   }
@@ -231,92 +193,6 @@ bool check_space_structure(SpaceClaims& claims) {
 
 namespace {
 
-const Polynomial<3>* polynomial_of(const Function<3>& f) {
-  return f.is_polynomial() ? &f.polynomial() : nullptr;
-}
-
-/// The common refinement of the polynomials of the input and of the surfaces assigns every factor
-/// its sources.
-void check_factors(SpaceClaims& claims, std::set<int>* repeated) {
-  const SurfaceEncasement& e = claims.result;
-  std::vector<Polynomial<3>> polynomials;
-  std::vector<int> inputs_at, surfaces_at;
-  for (std::size_t k = 0; k < e.input.size(); ++k)
-    if (const auto* f = polynomial_of(e.input[k].function)) {
-      polynomials.push_back(*f);
-      inputs_at.push_back(static_cast<int>(k));
-    }
-  for (std::size_t k = 0; k < e.surfaces.size(); ++k)
-    if (const auto* f = polynomial_of(e.surfaces[k].function)) {
-      polynomials.push_back(*f);
-      surfaces_at.push_back(static_cast<int>(k));
-    }
-  for (const auto& element : coprime_square_free_base(polynomials)) {
-    std::vector<int> inputs, surfaces;
-    for (const auto& source : element.sources) {
-      const auto k = static_cast<std::size_t>(source.index);
-      if (k < inputs_at.size()) {
-        inputs.push_back(inputs_at[k]);
-        if (source.multiplicity > 1) repeated->insert(inputs.back());
-      } else {
-        surfaces.push_back(surfaces_at[k - inputs_at.size()]);
-        claims.require(source.multiplicity == 1, "Surface ", surfaces.back(),
-                       " has a repeated component.");
-      }
-    }
-    if (surfaces.size() > 1)
-      claims.require(false, "Surfaces ", surfaces[0], " and ", surfaces[1], " share a component.");
-    else if (surfaces.empty())
-      claims.require(false, "A component of input surface ", inputs[0], " is in no surface.");
-    else
-      claims.require(inputs == e.surfaces[static_cast<std::size_t>(surfaces[0])].sources,
-                     "Surface ", surfaces[0],
-                     " does not have the components that its sources say.");
-  }
-}
-
-/// What is no polynomial is that of the input.
-void check_others(SpaceClaims& claims) {
-  const SurfaceEncasement& e = claims.result;
-  std::vector<int> count(e.input.size(), 0);
-  for (std::size_t s = 0; s < e.surfaces.size(); ++s) {
-    if (e.surfaces[s].function.is_polynomial()) continue;
-    std::vector<int> equal;
-    for (std::size_t i = 0; i < e.input.size(); ++i)
-      if (e.input[i].function == e.surfaces[s].function) equal.push_back(static_cast<int>(i));
-    for (const int i : equal) ++count[static_cast<std::size_t>(i)];
-    claims.require(equal == e.surfaces[s].sources, "Surface ", s,
-                   " is not the function of its sources, or not of them alone.");
-  }
-  for (std::size_t i = 0; i < e.input.size(); ++i)
-    if (!e.input[i].function.is_polynomial())
-      claims.require(count[i] == 1, "The function of input surface ", i,
-                     " is not that of one surface.");
-}
-
-/// Repeated and shared components are reported, and no others.
-void check_components(SpaceClaims& claims, const std::set<int>& repeated) {
-  const SurfaceEncasement& e = claims.result;
-  using Kind = Unresolved::Kind;
-  std::set<int> reported;
-  std::set<std::pair<int, int>> reported_pairs, pairs;
-  for (const UnresolvedInSpace& u : e.degenerate) {
-    if (u.kind == Kind::RepeatedComponent) reported.insert(u.surfaces.begin(), u.surfaces.end());
-    if (u.kind != Kind::SharedComponent) continue;
-    for (const int a : u.surfaces)
-      for (const int b : u.surfaces)
-        if (a < b) reported_pairs.insert({a, b});
-  }
-  for (const Surface& s : e.surfaces)
-    for (const int a : s.sources)
-      for (const int b : s.sources)
-        if (a < b) pairs.insert({a, b});
-  claims.require(reported == repeated,
-                 "The input surfaces with repeated components are not those reported.");
-  claims.require(reported_pairs == pairs,
-                 "The input surfaces with shared components are not those reported.");
-}
-
 /// Every cell that is not certified is named by one entry, in the list of its state.
 void check_open_cells(SpaceClaims& claims) {
   const SurfaceEncasement& e = claims.result;
@@ -334,10 +210,14 @@ void check_open_cells(SpaceClaims& claims) {
 }  // namespace
 
 void check_surfaces(SpaceClaims& claims) {
-  std::set<int> repeated;
-  check_factors(claims, &repeated);
-  check_others(claims);
-  check_components(claims, repeated);
+  const SurfaceEncasement& e = claims.result;
+  FunctionClaims<3> functions{e.input};
+  for (const Surface& s : e.surfaces) functions.encased.push_back({s.function, s.sources});
+  for (const UnresolvedInSpace& u : e.degenerate)
+    functions.degenerate.push_back({u.kind, u.surfaces});
+  for (const UnresolvedInSpace& u : e.undecided)
+    functions.undecided.push_back({u.kind, u.surfaces});
+  check_functions(claims, functions);
 }
 
 }  // namespace verification

@@ -307,6 +307,13 @@ TEST(Caps, RefusesWhatItCannotAnswer) {
   refused({"x"}, square, 3, "larger than the region");
   refused({"x"}, whole_plane(), 1e-3, "rectangle");
   refused({"x"}, parse_region("polygon (0,0) (1,0) (0,1)").value(), 1e-3, "rectangle");
+  refused({"x - x"}, square, 1e-3, "zero polynomial");
+  const auto steep = caps({{"f", Polynomial<2>::variable(0).power(61)}}, square);
+  ASSERT_FALSE(steep.ok());
+  EXPECT_EQ(steep.error().message, "curve 'f' has degree 61, above the limit of 60");
+  const auto in_space = caps({{"f", Function<2>(Expression::variable(2))}}, square);
+  ASSERT_FALSE(in_space.ok());
+  EXPECT_EQ(in_space.error().message, "curve 'f' is a constant: it has no x and no y");
 }
 
 TEST(Caps, OfItsFilesHasTheClassesOfThePaper) {

@@ -179,10 +179,10 @@ TEST(CommonPoints, BadInputIsNamed) {
     EXPECT_EQ(result.error().code, Error::Code::BadInput);
     return result.error().message;
   };
-  EXPECT_EQ(error({}), "surface 'f' is zero: every point lies on it");
+  EXPECT_EQ(error({}), "surface 'f' is the zero polynomial: every point lies on it");
   EXPECT_EQ(error(Polynomial<3>::constant(7)), "surface 'f' is a constant: no point lies on it");
   EXPECT_EQ(error(Polynomial<3>::variable(0).power(61)),
-            "surface 'f' has degree 61; the largest is 60");
+            "surface 'f' has degree 61, above the limit of 60");
 }
 
 /// Changes one fact; false if this one has none to change.
