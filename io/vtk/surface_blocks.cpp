@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "encase/version.hpp"
 #include "io/names.hpp"
+#include "vtk_parts.hpp"
 
 namespace encase {
 namespace {
@@ -23,41 +23,12 @@ int kind_of(const SpaceCell& cell) {
   return surfaces.empty() ? kEmpty : surfaces.size() == 1 ? kOneSurface : kSeveral;
 }
 
-template <class Surfaces>
-std::string names_of(const SurfaceEncasement& e, const Surfaces& surfaces) {
-  std::string names;
-  for (const int k : surfaces) names += (names.empty() ? "" : ", ") + e.surfaces[k].name;
-  return names;
-}
-
-/// Array names for the surfaces' signs: their names in plain ASCII, all different.
-std::vector<std::string> sign_names(const SurfaceEncasement& e) {
-  std::vector<std::string> names;
-  std::set<std::string> seen;
-  for (std::size_t k = 0; k < e.surfaces.size(); ++k) {
-    std::string name = "sign_";
-    for (const char c : e.surfaces[k].name) {
-      const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-      name += plain ? c : '_';
-    }
-    if (!seen.insert(name).second) {
-      name += "_" + std::to_string(k);
-      seen.insert(name);
-    }
-    names.push_back(name);
-  }
-  return names;
-}
-
 /// Every cell as the polygons around it.
-vtkPolyData* fill_cells(const SurfaceScene& scene, VtkTable* table) {
+void fill_cells(const SurfaceScene& scene, VtkTable* table) {
   const SurfaceEncasement& e = scene.encasement;
-  vtkIntArray* id = table->integers("id");
-  vtkIntArray* kind = table->integers("kind");
-  vtkIntArray* depth = table->integers("depth");
-  vtkIntArray* certified = table->integers("certified");
-  std::vector<vtkIntArray*> signs;
-  for (const std::string& name : sign_names(e)) signs.push_back(table->integers(name));
+  const auto add =
+      table->columns(integer("id"), integer("kind"), integer("depth"), integer("certified"));
+  const SignColumns add_signs(e.surfaces, table);
   for (std::size_t k = 0; k < e.cells.size(); ++k) {
     const SpaceCell& cell = e.cells[k];
     for (const int f : cell.facets) {
@@ -65,52 +36,32 @@ vtkPolyData* fill_cells(const SurfaceScene& scene, VtkTable* table) {
       std::vector<Point<3>> polygon = scene.polygons[f];
       if (e.facets[f].cells[1] == static_cast<int>(k)) std::reverse(polygon.begin(), polygon.end());
       table->polygon(polygon);
-      id->InsertNextValue(static_cast<int>(k));
-      kind->InsertNextValue(kind_of(cell));
-      depth->InsertNextValue(cell.depth);
-      certified->InsertNextValue(cell.state == CellState::Certified);
-      for (std::size_t s = 0; s < signs.size(); ++s)
-        signs[s]->InsertNextValue(s < cell.signs.size() ? static_cast<int>(cell.signs[s]) : 0);
+      add(k, kind_of(cell), cell.depth, cell.state == CellState::Certified);
+      add_signs(cell.signs);
     }
   }
-  return table->finish(field_data(e), false);
 }
 
-vtkPolyData* fill_facets(const SurfaceScene& scene, VtkTable* table) {
+void fill_facets(const SurfaceScene& scene, VtkTable* table) {
   const SurfaceEncasement& e = scene.encasement;
-  vtkIntArray* id = table->integers("id");
-  vtkIntArray* kind = table->integers("kind");
-  vtkIntArray* plane = table->integers("plane");
-  vtkIntArray* negative = table->integers("negative_cell");
-  vtkIntArray* positive = table->integers("positive_cell");
-  vtkIntArray* count = table->integers("surface_count");
-  vtkStringArray* name = table->strings("surface_name");
-  vtkIntArray* certified = table->integers("certified");
+  const auto add =
+      table->columns(integer("id"), integer("kind"), integer("plane"), integer("negative_cell"),
+                     integer("positive_cell"), integer("surface_count"), text("surface_name"),
+                     integer("certified"));
   for (std::size_t k = 0; k < e.facets.size(); ++k) {
     const Facet& facet = e.facets[k];
     table->polygon(scene.polygons[k]);
-    id->InsertNextValue(static_cast<int>(k));
-    kind->InsertNextValue(facet.cells[0] < 0 || facet.cells[1] < 0);
-    plane->InsertNextValue(facet.plane);
-    negative->InsertNextValue(facet.cells[0]);
-    positive->InsertNextValue(facet.cells[1]);
-    count->InsertNextValue(static_cast<int>(facet.surfaces.size()));
-    name->InsertNextValue(names_of(e, facet.surfaces).c_str());
-    certified->InsertNextValue(facet.surfaces.empty() ||
-                               facet.encasement.outcome == Outcome::Certified);
+    add(k, facet.cells[0] < 0 || facet.cells[1] < 0, facet.plane, facet.cells[0], facet.cells[1],
+        facet.surfaces.size(), names_of(e.surfaces, facet.surfaces),
+        facet.surfaces.empty() || facet.encasement.outcome == Outcome::Certified);
   }
-  return table->finish(field_data(e), false);
 }
 
-vtkPolyData* fill_surfaces(const SurfaceScene& scene, VtkTable* table) {
+void fill_surfaces(const SurfaceScene& scene, VtkTable* table) {
   const SurfaceEncasement& e = scene.encasement;
-  vtkIntArray* id = table->integers("id");
-  vtkIntArray* surface = table->integers("surface");
-  vtkStringArray* name = table->strings("surface_name");
-  vtkIntArray* cell = table->integers("cell");
-  vtkDoubleArray* distance = table->doubles("distance");
-  vtkDoubleArray* angle = table->doubles("angle");
-  vtkIntArray* certified = table->integers("certified");
+  const auto add =
+      table->columns(integer("id"), integer("surface"), text("surface_name"), integer("cell"),
+                     number("distance"), number("angle"), integer("certified"));
   vtkDoubleArray* normals = table->point_vectors("Normals");
   int before = 0, count = 0;
   for (const SurfaceMesh& mesh : scene.meshes) {
@@ -119,28 +70,18 @@ vtkPolyData* fill_surfaces(const SurfaceScene& scene, VtkTable* table) {
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
       const auto& [p, q, r] = mesh.triangles[k];
       table->triangle({before + p, before + q, before + r});
-      id->InsertNextValue(count++);
-      surface->InsertNextValue(mesh.surface);
-      name->InsertNextValue(e.surfaces[mesh.surface].name.c_str());
-      cell->InsertNextValue(mesh.cells[k]);
-      distance->InsertNextValue(mesh.distances[k]);
-      angle->InsertNextValue(mesh.angles[k]);
-      certified->InsertNextValue(std::isfinite(mesh.distances[k]));
+      add(count++, mesh.surface, e.surfaces[mesh.surface].name, mesh.cells[k], mesh.distances[k],
+          mesh.angles[k], std::isfinite(mesh.distances[k]));
     }
     before += static_cast<int>(mesh.points.size());
   }
-  return table->finish(field_data(e), false);
 }
 
-vtkPolyData* fill_curves(const SurfaceScene& scene, VtkTable* table) {
+void fill_curves(const SurfaceScene& scene, VtkTable* table) {
   const SurfaceEncasement& e = scene.encasement;
-  vtkIntArray* id = table->integers("id");
-  vtkIntArray* kind = table->integers("kind");
-  vtkIntArray* surface = table->integers("surface");
-  vtkIntArray* second = table->integers("second_surface");
-  vtkStringArray* name = table->strings("surface_name");
-  vtkDoubleArray* distance = table->doubles("distance");
-  vtkIntArray* certified = table->integers("certified");
+  const auto add =
+      table->columns(integer("id"), integer("kind"), integer("surface"), integer("second_surface"),
+                     text("surface_name"), number("distance"), integer("certified"));
   vtkDoubleArray* tangent = table->point_vectors("tangent");
   vtkDoubleArray* normal = table->point_vectors("normal");
   vtkDoubleArray* second_normal = table->point_vectors("second_normal");
@@ -149,43 +90,27 @@ vtkPolyData* fill_curves(const SurfaceScene& scene, VtkTable* table) {
     table->polyline(traced.points);
     double largest = 0;
     for (const double d : traced.distances) largest = std::max(largest, d);
-    id->InsertNextValue(static_cast<int>(k));
-    kind->InsertNextValue(traced.curve.closed);
-    surface->InsertNextValue(traced.curve.surfaces[0]);
-    second->InsertNextValue(traced.curve.surfaces[1]);
-    name->InsertNextValue(names_of(e, traced.curve.surfaces).c_str());
-    distance->InsertNextValue(largest);
-    certified->InsertNextValue(std::isfinite(largest));
+    add(k, traced.curve.closed, traced.curve.surfaces[0], traced.curve.surfaces[1],
+        names_of(e.surfaces, traced.curve.surfaces), largest, std::isfinite(largest));
     for (std::size_t i = 0; i < traced.points.size(); ++i) {
       tangent->InsertNextTuple(traced.tangents[i].data());
       normal->InsertNextTuple(traced.normals[i][0].data());
       second_normal->InsertNextTuple(traced.normals[i][1].data());
     }
   }
-  return table->finish(field_data(e), false);
 }
 
-vtkPolyData* fill_points(const SurfaceScene& scene, VtkTable* table) {
+void fill_points(const SurfaceScene& scene, VtkTable* table) {
   const SurfaceEncasement& e = scene.encasement;
-  vtkIntArray* id = table->integers("id");
-  std::array<vtkIntArray*, 3> surface = {table->integers("surface"),
-                                         table->integers("second_surface"),
-                                         table->integers("third_surface")};
-  vtkStringArray* name = table->strings("surface_name");
-  vtkIntArray* cell = table->integers("cell");
-  vtkDoubleArray* radius = table->doubles("radius");
-  vtkIntArray* certified = table->integers("certified");
+  const auto add = table->columns(integer("id"), integer("surface"), integer("second_surface"),
+                                  integer("third_surface"), text("surface_name"), integer("cell"),
+                                  number("radius"), integer("certified"));
   for (std::size_t k = 0; k < e.triple_points.size(); ++k) {
     const TriplePoint& t = e.triple_points[k];
     table->vertex(t.point);
-    id->InsertNextValue(static_cast<int>(k));
-    for (int i = 0; i < 3; ++i) surface[i]->InsertNextValue(t.surfaces[i]);
-    name->InsertNextValue(names_of(e, t.surfaces).c_str());
-    cell->InsertNextValue(t.cell);
-    radius->InsertNextValue(0.5 * t.box.largest_width());
-    certified->InsertNextValue(1);
+    add(k, t.surfaces[0], t.surfaces[1], t.surfaces[2], names_of(e.surfaces, t.surfaces), t.cell,
+        0.5 * t.box.largest_width(), 1);
   }
-  return table->finish(field_data(e), true);
 }
 
 /// The six sides of a box.
@@ -209,37 +134,26 @@ std::vector<std::vector<Point<3>>> sides_of(const Box<3>& box) {
 }
 
 /// The boxes of the curves' critical points.
-vtkPolyData* fill_critical_regions(const SurfaceScene& scene, VtkTable* table) {
+void fill_critical_regions(const SurfaceScene& scene, VtkTable* table) {
   const SurfaceEncasement& e = scene.encasement;
-  vtkIntArray* id = table->integers("id");
-  vtkIntArray* surface = table->integers("surface");
-  vtkIntArray* second = table->integers("second_surface");
-  vtkStringArray* name = table->strings("surface_name");
-  vtkIntArray* certified = table->integers("certified");
+  const auto add = table->columns(integer("id"), integer("surface"), integer("second_surface"),
+                                  text("surface_name"), integer("certified"));
   int count = 0;
   for (const CurveCriticalPoints& critical : e.critical_points)
     for (const Box<3>& box : critical.points) {
       for (const auto& side : sides_of(box)) {
         table->polygon(side);
-        id->InsertNextValue(count);
-        surface->InsertNextValue(critical.surfaces[0]);
-        second->InsertNextValue(critical.surfaces[1]);
-        name->InsertNextValue(names_of(e, critical.surfaces).c_str());
-        certified->InsertNextValue(1);
+        add(count, critical.surfaces[0], critical.surfaces[1],
+            names_of(e.surfaces, critical.surfaces), 1);
       }
       ++count;
     }
-  return table->finish(field_data(e), false);
 }
 
-vtkPolyData* fill_unresolved(const SurfaceScene& scene, VtkTable* table) {
+void fill_unresolved(const SurfaceScene& scene, VtkTable* table) {
   const SurfaceEncasement& e = scene.encasement;
-  vtkIntArray* id = table->integers("id");
-  vtkIntArray* kind = table->integers("kind");
-  vtkStringArray* kind_name = table->strings("kind_name");
-  vtkStringArray* name = table->strings("surface_name");
-  vtkStringArray* reason = table->strings("reason");
-  vtkIntArray* certified = table->integers("certified");
+  const auto add = table->columns(integer("id"), integer("kind"), text("kind_name"),
+                                  text("surface_name"), text("reason"), integer("certified"));
   int count = 0;
   for (const auto* places : {&e.degenerate, &e.undecided})
     for (const UnresolvedInSpace& place : *places) {
@@ -252,17 +166,12 @@ vtkPolyData* fill_unresolved(const SurfaceScene& scene, VtkTable* table) {
         for (const auto& side : sides_of(place.box)) sides.push_back(side);
       for (const auto& side : sides) {
         table->polygon(side);
-        id->InsertNextValue(count);
-        kind->InsertNextValue(static_cast<int>(place.kind));
-        kind_name->InsertNextValue(name_of(kUnresolvedKinds, place.kind));
-        name->InsertNextValue(names_input_curves(place.kind) ? ""
-                                                             : names_of(e, place.surfaces).c_str());
-        reason->InsertNextValue(place.reason.c_str());
-        certified->InsertNextValue(0);
+        add(count, place.kind, name_of(kUnresolvedKinds, place.kind),
+            names_input_curves(place.kind) ? "" : names_of(e.surfaces, place.surfaces),
+            place.reason, 0);
       }
       ++count;
     }
-  return table->finish(field_data(e), false);
 }
 
 /// Of every cell the piece it is a part of after so many cuts: an entry of the history, or the
@@ -284,15 +193,6 @@ std::vector<int> pieces_after(const SurfaceEncasement& e, int cuts) {
 
 }  // namespace
 
-FieldData field_data(const SurfaceEncasement& encasement) {
-  std::vector<std::string> input;
-  for (const NamedSurface& surface : encasement.input)
-    input.push_back(surface.name + ": " + surface.function.to_string());
-  return {{"status", {name_of(kOutcomes, encasement.outcome)}},
-          {"input", input},
-          {"version", {std::string("encase ") + kVersion}}};
-}
-
 std::vector<std::vector<Point<3>>> facet_polygons(const SurfaceEncasement& encasement) {
   std::vector<std::vector<Point<3>>> polygons;
   for (const Facet& facet : encasement.facets) {
@@ -306,30 +206,32 @@ std::vector<std::vector<Point<3>>> facet_polygons(const SurfaceEncasement& encas
   return polygons;
 }
 
-vtkPolyData* fill_surface_block(const SurfaceScene& scene, std::size_t block, VtkTable* table) {
-  constexpr std::array<vtkPolyData* (*)(const SurfaceScene&, VtkTable*), kSurfaceBlocks.size()>
-      kFill = {fill_cells,  fill_facets,           fill_surfaces,  fill_curves,
-               fill_points, fill_critical_regions, fill_unresolved};
-  return kFill[block](scene, table);
+std::vector<VtkBlock> surface_blocks(const SurfaceScene& scene) {
+  const auto block = [&](const char* name, VtkRowsOf rows, auto fill) -> VtkBlock {
+    return {name, rows, [&scene, fill](VtkTable* table) { fill(scene, table); }};
+  };
+  using enum VtkRowsOf;
+  return {block("cells", Primitives, fill_cells),
+          block("facets", Primitives, fill_facets),
+          block("surfaces", Primitives, fill_surfaces),
+          block("intersection_curves", Primitives, fill_curves),
+          block("points", Points, fill_points),
+          block("critical_regions", Primitives, fill_critical_regions),
+          block("unresolved", Primitives, fill_unresolved)};
 }
 
-vtkPolyData* fill_surface_step(const SurfaceEncasement& e,
-                               const std::vector<std::vector<Point<3>>>& polygons, int cuts,
-                               VtkTable* table) {
-  vtkIntArray* id = table->integers("id");
-  vtkIntArray* plane = table->integers("plane");
-  vtkIntArray* kind = table->integers("kind");
+void fill_surface_step(const SurfaceEncasement& e,
+                       const std::vector<std::vector<Point<3>>>& polygons, int cuts,
+                       VtkTable* table) {
+  const auto add = table->columns(integer("id"), integer("plane"), integer("kind"));
   const std::vector<int> pieces = pieces_after(e, cuts);
   for (std::size_t k = 0; k < e.facets.size(); ++k) {
     const auto& [a, b] = e.facets[k].cells;
     const bool outer = a < 0 || b < 0;
     if (!outer && pieces[a] == pieces[b]) continue;
     table->polygon(polygons[k]);
-    id->InsertNextValue(static_cast<int>(k));
-    plane->InsertNextValue(e.facets[k].plane);
-    kind->InsertNextValue(outer);
+    add(k, e.facets[k].plane, outer);
   }
-  return table->finish(field_data(e), false);
 }
 
 }  // namespace encase

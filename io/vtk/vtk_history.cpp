@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,34 +28,25 @@ std::vector<int> shown_cuts(int cuts) {
   return shown;
 }
 
-std::string collection_file(const std::vector<int>& cuts) {
-  std::string out =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-      "  <Collection>\n";
-  for (std::size_t k = 0; k < cuts.size(); ++k)
-    fmt::format_to(std::back_inserter(out),
-                   "    <DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"history/{}\"/>\n",
-                   cuts[k], step_name(static_cast<int>(k)));
-  return out + "  </Collection>\n</VTKFile>\n";
-}
-
 }  // namespace
 
-Status write_steps(const std::string& directory, int cuts,
-                   const std::function<vtkPolyData*(int, VtkTable*)>& fill) {
+Status write_steps(const std::string& directory, int cuts, const FieldData& about,
+                   const std::function<void(int, VtkTable*)>& fill) {
   auto made = AtomicDirectory::create(directory + "/history");
   if (!made) return made.error();
   AtomicDirectory files = std::move(made).value();
-  const std::vector<int> shown = shown_cuts(cuts);
-  for (std::size_t k = 0; k < shown.size(); ++k) {
+  std::vector<VtkStep> steps;
+  for (const int shown : shown_cuts(cuts)) {
+    const std::string name = step_name(static_cast<int>(steps.size()));
     VtkTable table;
-    if (Status bad = write_data_set(fill(shown[k], &table), files.temporary(),
-                                    step_name(static_cast<int>(k)), directory + "/history"))
+    fill(shown, &table);
+    if (Status bad = write_data_set(table.finish(about, VtkRowsOf::Primitives), files.temporary(),
+                                    name, directory + "/history"))
       return bad;
+    steps.push_back({shown, "history/" + name});
   }
   if (Status bad = files.commit()) return bad;
-  return write_file(directory + "/history.pvd", collection_file(shown));
+  return write_steps_file(directory + "/history.pvd", steps);
 }
 
 }  // namespace encase

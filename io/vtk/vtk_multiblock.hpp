@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,16 +10,35 @@
 
 namespace encase {
 
+/// A data set of a result, with columns for its primitives or points.
+struct VtkBlock {
+  const char* name;
+  VtkRowsOf rows_of;
+  std::function<void(VtkTable*)> fill;
+};
+
+/// What is written of a result.
+struct VtkResult {
+  FieldData about;        ///< in every file
+  FieldData about_all{};  ///< and in the .vtm alone
+  std::vector<VtkBlock> blocks;
+  std::function<Status()> write_more = [] { return Status(); };  ///< of the blocks' directory
+};
+
 /// Writes one data set as `directory`/`name`; `shown` is what errors call the directory.
 Status write_data_set(vtkPolyData* data, const std::string& directory, const std::string& name,
                       const std::string& shown);
 
-/// Writes the data sets that `fill` makes of the blocks' numbers in `directory`/result, then what
-/// `more` writes, then `directory`/result.vtm. The directory is made if its parent exists. The .vtm
-/// appears when all is complete; it and history.pvd of an earlier run are removed first.
-Status write_multiblock(const std::string& directory, const FieldData& field_data,
-                        const std::vector<const char*>& blocks,
-                        const std::function<vtkPolyData*(std::size_t, VtkTable*)>& fill,
-                        const std::function<Status()>& more);
+/// Writes the blocks in `directory`/result, then what `write_more` writes, then
+/// `directory`/result.vtm. The directory is made if its parent exists. The .vtm appears when all is
+/// complete; it and history.pvd of an earlier run are removed first.
+Status write_multiblock(const std::string& directory, const VtkResult& result);
+
+/// A time step of a .pvd file.
+struct VtkStep {
+  int time;
+  std::string file;  ///< relative to the .pvd's directory
+};
+Status write_steps_file(const std::string& path, const std::vector<VtkStep>& steps);
 
 }  // namespace encase

@@ -13,19 +13,56 @@
 
 #include <array>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "encase/encasement.hpp"
+#include "encase/geometry.hpp"
 #include "encase/slice.hpp"
 
 namespace encase {
 
 /// What every file says about the result as a whole: names and values.
 using FieldData = std::vector<std::pair<const char*, std::vector<std::string>>>;
-FieldData field_data(const Encasement& encasement);
 
-/// A data set with attributes for each of its points or cells, filled row by row.
+/// A column of attributes: what it holds, and its name.
+template <class Array>
+struct VtkColumn {
+  std::string name;
+};
+/// (Also of indices, enumerators and truth values.)
+inline VtkColumn<vtkIntArray> integer(const std::string& name) { return {name}; }
+inline VtkColumn<vtkDoubleArray> number(const std::string& name) { return {name}; }
+inline VtkColumn<vtkStringArray> text(const std::string& name) { return {name}; }
+
+/// Adds rows to columns: a value for each.
+template <class... Arrays>
+class VtkRows {
+ public:
+  explicit VtkRows(Arrays*... arrays) : arrays_(arrays...) {}
+
+  template <class... Values>
+  void operator()(const Values&... values) const {
+    static_assert(sizeof...(Values) == sizeof...(Arrays), "a value for each column");
+    std::apply([&](Arrays*... arrays) { (put(arrays, values), ...); }, arrays_);
+  }
+
+ private:
+  template <class Value>
+  static void put(vtkIntArray* array, const Value& value) {
+    array->InsertNextValue(static_cast<int>(value));
+  }
+  static void put(vtkDoubleArray* array, double value) { array->InsertNextValue(value); }
+  static void put(vtkStringArray* array, const std::string& value) {
+    array->InsertNextValue(value.c_str());
+  }
+  std::tuple<Arrays*...> arrays_;
+};
+
+/// Whether the rows of a table belong to its primitives or to its points.
+enum class VtkRowsOf { Primitives, Points };
+
+/// A data set with attributes for each of its primitives or points, filled row by row.
 class VtkTable {
  public:
   VtkTable() {
@@ -61,9 +98,11 @@ class VtkTable {
   void polyline(const std::vector<Point<3>>& line) { primitive<3>(lines_, line); }
   void vertex(const Point<3>& p) { primitive<3>(vertices_, {p}); }
 
-  vtkIntArray* integers(const std::string& name) { return add<vtkIntArray>(name); }
-  vtkDoubleArray* doubles(const std::string& name) { return add<vtkDoubleArray>(name); }
-  vtkStringArray* strings(const std::string& name) { return add<vtkStringArray>(name); }
+  /// Makes columns; each primitive needs a row of them.
+  template <class... Arrays>
+  VtkRows<Arrays...> columns(const VtkColumn<Arrays>&... columns) {
+    return VtkRows<Arrays...>(add(columns)...);
+  }
 
   /// A vector for each point, whatever the others belong to.
   vtkDoubleArray* point_vectors(const std::string& name) {
@@ -74,11 +113,7 @@ class VtkTable {
     return array;
   }
 
-  /// The data set; attributes belong to its points if `of_points`, else to its cells.
-  vtkPolyData* finish(const FieldData& field_data, bool of_points);
-  vtkPolyData* finish(const Encasement& encasement, bool of_points) {
-    return finish(field_data(encasement), of_points);
-  }
+  vtkPolyData* finish(const FieldData& about, VtkRowsOf of);
 
  private:
   vtkIdType point(const Point<2>& p) {
@@ -91,9 +126,9 @@ class VtkTable {
     for (const Point<D>& p : points) list->InsertCellPoint(point(p));
   }
   template <class Array>
-  Array* add(const std::string& name) {
+  Array* add(const VtkColumn<Array>& column) {
     vtkNew<Array> array;
-    array->SetName(name.c_str());
+    array->SetName(column.name.c_str());
     arrays_.emplace_back(array);
     return array;
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,18 +9,15 @@
 #include "2d/piece_complex.hpp"
 #include "2d/trace.hpp"
 #include "encase/arrangement.hpp"
-#include "vtk_table.hpp"
+#include "vtk_multiblock.hpp"
 
-/// The blocks of a result, docs/vtk.md.
+/// The blocks of an encasement of curves, docs/vtk.md.
 namespace encase {
 
-inline constexpr std::array<const char*, 9> kVtkBlocks = {
-    "cells", "curves",   "points", "critical_regions", "unresolved", "faces",
-    "edges", "vertices", "labels"};
-
 /// What the blocks show.
-struct VtkScene {
+struct CurveScene {
   const Encasement& encasement;
+  const PlaneChart* chart;                 ///< of the plane in which it is; none: z = 0
   std::optional<Arrangement> arrangement;  ///< where the encasement has one
   std::vector<Polyline> edges;             ///< of the arrangement
   PieceComplex pieces;                     ///< of the arrangement
@@ -30,10 +25,10 @@ struct VtkScene {
 };
 
 /// Traces the curves. Internal if the cells are no complex.
-Result<VtkScene> make_vtk_scene(const Encasement& encasement);
+Result<CurveScene> make_curve_scene(const Encasement& encasement, const PlaneChart* chart);
 
-/// Fills the table of an entry of kVtkBlocks.
-vtkPolyData* fill_block(const VtkScene& scene, std::size_t block, VtkTable* table);
+/// The scene must outlive them.
+std::vector<VtkBlock> curve_blocks(const CurveScene& scene);
 
 /// As the array `kind` of cells numbers them.
 int cell_kind(const Cell& cell);
