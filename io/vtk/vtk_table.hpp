@@ -101,7 +101,7 @@ class VtkTable {
   /// Makes columns; each primitive needs a row of them.
   template <class... Arrays>
   VtkRows<Arrays...> columns(const VtkColumn<Arrays>&... columns) {
-    return VtkRows<Arrays...>(add(columns)...);
+    return VtkRows<Arrays...>{add(columns)...};  // (Braces: from the first to the last.)
   }
 
   /// A vector for each point, whatever the others belong to.
