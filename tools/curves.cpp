@@ -39,13 +39,9 @@ Status check_options(const CurvesRequest& r) {
     return bad_input("with --onto the region and the perturbation are those of the earlier result");
   if (r.onto == "-" && r.file == "-")
     return bad_input("FILE and --onto cannot both be standard input");
-  if (r.history && r.vtk_directory.empty())
-    return bad_input("--history belongs to the VTK files: give their directory with -o");
-  if (r.options.start_bits > r.options.max_bits)
-    return bad_input("--start-bits is above --max-bits");
-  if (!(r.options.perturbation >= 0 && r.options.perturbation < 1))
-    return bad_input("--perturb must be between 0 and 1");
-  if (const Status status = check_mesh_output(r.mesh)) return status;
+  if (const Status status =
+          check_encasing(r.options.start_bits, r.options.max_bits, r.options.perturbation))
+    return status;
   return check_outputs(r);
 }
 

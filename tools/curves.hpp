@@ -14,8 +14,6 @@ struct CurvesRequest : Request {
   std::string onto;     ///< a result to whose curves these are added, or empty
   bool faces = false;   ///< in the SVG and the mesh
   bool labels = false;  ///< in the SVG
-  std::string mesh;
-  bool history = false;  ///< in the VTK files
   EncaseOptions options;
 };
 

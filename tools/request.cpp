@@ -14,6 +14,18 @@ namespace {
 
 Error bad_input(const std::string& message) { return {Error::Code::BadInput, message}; }
 
+Status check_mesh_output(const std::string& path) {
+  if (path.empty()) return {};
+#ifdef ENCASE_HAVE_OPEN_MESH
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension != ".om" && extension != ".off" && extension != ".obj" && extension != ".ply")
+    return bad_input("--mesh writes .om, .off, .obj or .ply, not '" + path + "'");
+  return check_writable(path);
+#else
+  return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
+#endif
+}
+
 }  // namespace
 
 Status check_request(const Request& r, const std::string& command, const std::string& things,
@@ -27,7 +39,17 @@ Status check_request(const Request& r, const std::string& command, const std::st
   return {};
 }
 
+Status check_encasing(int start_bits, int max_bits, double perturbation) {
+  if (start_bits > max_bits) return bad_input("--start-bits is above --max-bits");
+  if (!(perturbation >= 0 && perturbation < 1))
+    return bad_input("--perturb must be between 0 and 1");
+  return {};
+}
+
 Status check_outputs(const Request& r) {
+  if (r.history && r.vtk_directory.empty())
+    return bad_input("--history belongs to the VTK files: give their directory with -o");
+  if (const Status status = check_mesh_output(r.mesh)) return status;
 #ifndef ENCASE_HAVE_VTK
   if (!r.vtk_directory.empty())
     return bad_input("-o needs VTK, and this encase was built without VTK");
@@ -35,18 +57,6 @@ Status check_outputs(const Request& r) {
   for (const std::string* path : {&r.json, &r.svg})
     if (const Status status = check_writable(*path)) return status;
   return check_writable_directory(r.vtk_directory);
-}
-
-Status check_mesh_output(const std::string& path) {
-  if (path.empty()) return {};
-#ifdef ENCASE_HAVE_OPEN_MESH
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension != ".om" && extension != ".off" && extension != ".obj" && extension != ".ply")
-    return bad_input("--mesh writes .om, .off, .obj or .ply, not '" + path + "'");
-  return check_writable(path);
-#else
-  return bad_input("--mesh needs OpenMesh, and this encase was built without OpenMesh");
-#endif
 }
 
 bool may_show_progress(const Request& r) {

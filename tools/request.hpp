@@ -16,6 +16,8 @@ struct Request {
   std::string json;
   std::string svg;
   std::string vtk_directory;
+  bool history = false;  ///< with the VTK files
+  std::string mesh;
   bool summary = false;
   bool quiet = false;
   bool verbose = false;
@@ -28,12 +30,13 @@ struct Request {
 Status check_request(const Request& request, const std::string& command, const std::string& things,
                      double max_seconds);
 
-/// What is asked for can be written: VTK is there (else BadInput), and the places exist (else Io).
-Status check_outputs(const Request& request);
+/// The precision to start with is not above the highest one, and the perturbation lies in [0, 1).
+/// Else BadInput.
+Status check_encasing(int start_bits, int max_bits, double perturbation);
 
-/// A mesh can be written at `path`, if it is not empty: OpenMesh is there and knows the extension
-/// (else BadInput), and the place exists (else Io).
-Status check_mesh_output(const std::string& path);
+/// What is asked for can be written: there are VTK and OpenMesh for what needs them, which knows
+/// the mesh's extension (else BadInput), and the places exist (else Io).
+Status check_outputs(const Request& request);
 
 /// Whether progress may be shown: not in the middle of an output.
 bool may_show_progress(const Request& request);

@@ -34,6 +34,9 @@ Status check_options(const SliceRequest& r) {
     return bad_input("no plane is given: --plane \"a b c d\" is a x + b y + c z + d = 0");
   if (r.count > 0 && !(r.json.empty() && r.svg.empty()))
     return bad_input("--json and --svg show one slice: leave out --count, or take -o");
+  if (const Status status =
+          check_encasing(r.options.start_bits, r.options.max_bits, r.options.perturbation))
+    return status;
   return check_outputs(r);
 }
 

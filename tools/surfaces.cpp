@@ -28,16 +28,12 @@ Error bad_input(const std::string& message) { return {Error::Code::BadInput, mes
 Status check_options(const SurfacesRequest& r) {
   if (const Status status = check_request(r, "surfaces", "surfaces", r.options.max_seconds))
     return status;
-  if (r.history && r.vtk_directory.empty())
-    return bad_input("--history belongs to the VTK files: give their directory with -o");
-  if (r.options.start_bits > r.options.max_bits)
-    return bad_input("--start-bits is above --max-bits");
-  if (!(r.options.perturbation >= 0 && r.options.perturbation < 1))
-    return bad_input("--perturb must be between 0 and 1");
+  if (const Status status =
+          check_encasing(r.options.start_bits, r.options.max_bits, r.options.perturbation))
+    return status;
   if (!(r.angle > 0 && r.angle < 1.5)) return bad_input("--angle must be between 0 and 1.5");
   if (!(r.tolerance >= 0 && std::isfinite(r.tolerance)))
     return bad_input("--tolerance must be a finite positive number");
-  if (const Status status = check_mesh_output(r.mesh)) return status;
   return check_outputs(r);
 }
 

@@ -11,8 +11,6 @@ namespace encase {
 
 /// What `encase surfaces` was asked for.
 struct SurfacesRequest : Request {
-  std::string mesh;
-  bool history = false;  ///< in the VTK files
   double tolerance = 0;  ///< of curves and meshes; 0: 10^-3 of the region's size
   double angle = 0.2;    ///< of meshes: between triangles' and surfaces' normals
   SurfaceOptions options;

@@ -140,8 +140,11 @@ class Usage(CommandTest):
                              1, option)
 
     def test_start_bits_above_max_bits(self):
-        self.refused(encase("curves", "-e", "x", "--region", "-1 1 -1 1", "--start-bits", "500",
-                            "--max-bits", "200"), 1, "--start-bits", "--max-bits")
+        bits = ("--start-bits", "500", "--max-bits", "200")
+        for scene in (("curves", "-e", "x", "--region", "-1 1 -1 1"),
+                      ("surfaces", "-e", "x", "--region", "box -1 1 -1 1 -1 1"),
+                      ("slice", "-e", "x", "--region", "box -1 1 -1 1 -1 1", "--plane", "0 1 1 0")):
+            self.refused(encase(*scene, *bits), 1, "--start-bits", "--max-bits")
 
     def test_history_needs_vtk_files(self):
         self.refused(encase("curves", "-e", "x", "--region", "-1 1 -1 1", "--history"), 1, "-o")
