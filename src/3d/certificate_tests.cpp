@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/box_tests.hpp"
+#include "common/taylor_to_bernstein.hpp"
 
 namespace encase {
 

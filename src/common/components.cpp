@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/integer_terms.hpp"
 #include "common/modular_line.hpp"
 #include "flint_polynomial.hpp"
 
@@ -50,15 +51,10 @@ class IntegerPoly {
   /// Takes f times the least common multiple of its denominators.
   void set(const Polynomial<1>& f) {
     fmpz_poly_zero(value_);
-    Integer denominator = 1;
+    const Integer denominator = common_denominator(f);
     for (const auto& term : f.terms())
-      mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(),
-              term.coefficient.get_den().get_mpz_t());
-    for (const auto& term : f.terms()) {
-      const Integer scaled =
-          term.coefficient.get_num() * (denominator / term.coefficient.get_den());
-      fmpz_poly_set_coeff_mpz(value_, term.exponent[0], scaled.get_mpz_t());
-    }
+      fmpz_poly_set_coeff_mpz(value_, term.exponent[0],
+                              scaled(term.coefficient, denominator).get_mpz_t());
   }
   Polynomial<1> get() const {
     std::vector<Polynomial<1>::Term> terms;
@@ -271,27 +267,24 @@ namespace {
 /// j-th power by powers of the other variable.
 struct Rows {
   std::vector<std::vector<Integer>> rows;
-  Integer denominator = 1;  ///< what the polynomial was multiplied with
-  Integer norm = 0;         ///< the sum of the absolute values of all coefficients
-  int degree = 0;           ///< in the eliminated variable
+  Integer denominator;  ///< what the polynomial was multiplied with
+  Integer norm = 0;     ///< the sum of the absolute values of all coefficients
+  int degree = 0;       ///< in the eliminated variable
   int other_degree = 0;
   int total_degree = 0;
 
   Rows(const Polynomial<2>& f, int eliminated_axis)
-      : degree(f.degree(eliminated_axis)),
+      : denominator(common_denominator(f)),
+        degree(f.degree(eliminated_axis)),
         other_degree(f.degree(1 - eliminated_axis)),
         total_degree(f.degree()) {
     rows.assign(static_cast<std::size_t>(degree) + 1,
                 std::vector<Integer>(static_cast<std::size_t>(other_degree) + 1));
-    for (const auto& term : f.terms())
-      mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(),
-              term.coefficient.get_den().get_mpz_t());
     for (const auto& term : f.terms()) {
-      const Integer scaled =
-          term.coefficient.get_num() * (denominator / term.coefficient.get_den());
-      norm += abs(scaled);
+      const Integer coefficient = scaled(term.coefficient, denominator);
+      norm += abs(coefficient);
       rows[static_cast<std::size_t>(term.exponent[eliminated_axis])]
-          [static_cast<std::size_t>(term.exponent[1 - eliminated_axis])] = scaled;
+          [static_cast<std::size_t>(term.exponent[1 - eliminated_axis])] = coefficient;
     }
   }
 };

@@ -8,7 +8,10 @@
 #include <utility>
 
 #include "common/interval.hpp"
+#include "common/local_jet.hpp"
 #include "common/numerator.hpp"
+#include "common/taylor_functions.hpp"
+#include "common/taylor_to_bernstein.hpp"
 
 namespace encase {
 namespace {
@@ -16,14 +19,6 @@ namespace {
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kUnderflow = 0x1p-960;
-
-template <class Number>
-Number make_number(int bits) {
-  if constexpr (std::is_same_v<Number, double>)
-    return 0;
-  else
-    return Number(bits);
-}
 
 /// There is no rung between doubles and MPFR.
 int mpfr_bits(int bits) { return bits == Kernel::kExtendedBits ? 2 * Kernel::kDoubleBits : bits; }
@@ -52,7 +47,7 @@ bool is_rational(Operation operation) {
 template <int D>
 template <int K, class Number>
 struct FilteredExpression<D>::Workspace {
-  TaylorArithmetic<K, Number> arithmetic;
+  TaylorFunctions<K, Number> arithmetic;
   std::vector<TaylorModel<K, Number>> places;
   std::array<Number, D> origin;
   std::array<std::array<Number, K>, D> direction;
@@ -157,7 +152,7 @@ bool has_no_zero(const TaylorModel<K, Number>& f) {
 template <int D>
 template <int K, class Number>
 const TaylorModel<K, Number>& FilteredExpression<D>::run(Workspace<K, Number>& w) const {
-  TaylorArithmetic<K, Number>& arithmetic = w.arithmetic;
+  TaylorFunctions<K, Number>& arithmetic = w.arithmetic;
   Number number = make_number<Number>(arithmetic.bits());
   const double unit = std::ldexp(1.0, -std::min(arithmetic.bits(), 900));
   for (const Step& step : steps_) {
@@ -445,113 +440,15 @@ double FilteredExpression<D>::precise_value(const Point<D>& point, double error,
 // Values and derivatives in doubles, without error bounds.
 
 template <int D>
-struct FilteredExpression<D>::LocalJet {
-  double value = 0;
-  Point<D> gradient{};
-  std::array<Point<D>, D> hessian{};
-
-  /// g of this, from the value, the first and the second derivative of g.
-  LocalJet composed(double g, double slope, double bend) const {
-    LocalJet r;
-    r.value = g;
-    for (std::size_t i = 0; i < D; ++i) {
-      r.gradient[i] = slope * gradient[i];
-      for (std::size_t k = 0; k < D; ++k)
-        r.hessian[i][k] = slope * hessian[i][k] + bend * gradient[i] * gradient[k];
-    }
-    return r;
-  }
-  LocalJet plus(double factor, const LocalJet& b) const {
-    LocalJet r = *this;
-    r.value += factor * b.value;
-    for (std::size_t i = 0; i < D; ++i) {
-      r.gradient[i] += factor * b.gradient[i];
-      for (std::size_t k = 0; k < D; ++k) r.hessian[i][k] += factor * b.hessian[i][k];
-    }
-    return r;
-  }
-  LocalJet times(const LocalJet& b) const {
-    LocalJet r;
-    r.value = value * b.value;
-    for (std::size_t i = 0; i < D; ++i) {
-      r.gradient[i] = value * b.gradient[i] + b.value * gradient[i];
-      for (std::size_t k = 0; k < D; ++k)
-        r.hessian[i][k] = value * b.hessian[i][k] + b.value * hessian[i][k] +
-                          gradient[i] * b.gradient[k] + gradient[k] * b.gradient[i];
-    }
-    return r;
-  }
-  LocalJet inverse() const {
-    const double w = 1 / value;
-    return composed(w, -w * w, 2 * w * w * w);
-  }
-  LocalJet of(Operation operation, int exponent) const;
-};
-
-template <int D>
-typename FilteredExpression<D>::LocalJet FilteredExpression<D>::LocalJet::of(Operation operation,
-                                                                             int exponent) const {
-  const double u = value;
-  switch (operation) {
-    case Operation::Negate:
-      return composed(-u, -1, 0);
-    case Operation::Power: {
-      const double n = exponent;
-      return composed(std::pow(u, n), n == 0 ? 0 : n * std::pow(u, n - 1),
-                      n == 0 || n == 1 ? 0 : n * (n - 1) * std::pow(u, n - 2));
-    }
-    case Operation::Sqrt: {
-      const double g = std::sqrt(u);
-      return composed(g, 0.5 / g, -0.25 / (g * u));
-    }
-    case Operation::Exp: {
-      const double g = std::exp(u);
-      return composed(g, g, g);
-    }
-    case Operation::Log:
-      return composed(std::log(u), 1 / u, -1 / (u * u));
-    case Operation::Sin:
-      return composed(std::sin(u), std::cos(u), -std::sin(u));
-    case Operation::Cos:
-      return composed(std::cos(u), -std::sin(u), -std::cos(u));
-    case Operation::Tan: {
-      const double g = std::tan(u), slope = 1 + g * g;
-      return composed(g, slope, 2 * g * slope);
-    }
-    case Operation::Asin:
-    case Operation::Acos: {
-      const double square = 1 - u * u, slope = 1 / std::sqrt(square), bend = u * slope / square;
-      return operation == Operation::Asin ? composed(std::asin(u), slope, bend)
-                                          : composed(std::acos(u), -slope, -bend);
-    }
-    case Operation::Atan: {
-      const double slope = 1 / (1 + u * u);
-      return composed(std::atan(u), slope, -2 * u * slope * slope);
-    }
-    case Operation::Sinh:
-      return composed(std::sinh(u), std::cosh(u), std::sinh(u));
-    case Operation::Cosh:
-      return composed(std::cosh(u), std::sinh(u), std::cosh(u));
-    case Operation::Tanh: {
-      const double g = std::tanh(u), slope = 1 - g * g;
-      return composed(g, slope, -2 * g * slope);
-    }
-    case Operation::Abs:
-      return u < 0 ? composed(-u, -1, 0) : *this;
-    default:
-      return *this;
-  }
-}
-
-template <int D>
-typename FilteredExpression<D>::LocalJet FilteredExpression<D>::local_jet(
-    const Point<D>& point) const {
-  thread_local std::vector<LocalJet> places;
+LocalJet<D> FilteredExpression<D>::local_jet(const Point<D>& point) const {
+  thread_local std::vector<LocalJet<D>> places;
   if (places.size() < static_cast<std::size_t>(places_))
     places.resize(static_cast<std::size_t>(places_));
   for (const Step& step : steps_) {
-    const auto at = [&](int k) -> const LocalJet& { return places[static_cast<std::size_t>(k)]; };
-    LocalJet r;
+    const auto at = [&](int k) -> const LocalJet<D>& {
+      return places[static_cast<std::size_t>(k)];
+    };
+    LocalJet<D> r;
     switch (step.operation) {
       case Operation::Constant:
         r.value = step.constant.get_d();
@@ -607,13 +504,13 @@ Point<D> FilteredExpression<D>::gradient(const Point<D>& point) const {
 template <int D>
 typename FilteredExpression<D>::ValueAndGradient FilteredExpression<D>::value_and_gradient(
     const Point<D>& point) const {
-  const LocalJet jet = local_jet(point);
+  const LocalJet<D> jet = local_jet(point);
   return {jet.value, jet.gradient};
 }
 
 template <int D>
 Jet FilteredExpression<D>::jet(const Point<D>& point) const requires(D == 2) {
-  const LocalJet local = local_jet(point);
+  const LocalJet<D> local = local_jet(point);
   return {local.value, local.gradient, local.hessian[0][0], local.hessian[0][1],
           local.hessian[1][1]};
 }

@@ -10,6 +10,9 @@
 
 namespace encase {
 
+template <int D>
+struct LocalJet;
+
 /// An expression with what algorithms ask about it, as FilteredPolynomial for polynomials; all from
 /// Taylor models. It is not scaled, but its numerator (`numerator_of`) takes its place: models are
 /// the numerator's, and claim nothing where that and a divisor are not proved to have no common
@@ -76,8 +79,7 @@ class FilteredExpression {
   Value value_at(const std::array<Coordinate, D>& point, const Point<D>& error, int bits) const;
   template <class Number>
   void restrict_in(const SegmentChart& segment, int bits, Bernstein<1>* net) const requires(D == 2);
-  struct LocalJet;
-  LocalJet local_jet(const Point<D>& point) const;
+  LocalJet<D> local_jet(const Point<D>& point) const;
   bool exact_value(const RationalPoint<D>& point, Rational* value) const;
 
   Expression exact_;

@@ -9,6 +9,7 @@
 
 #include "common/bernstein.hpp"
 #include "common/kernel.hpp"
+#include "common/taylor_to_bernstein.hpp"
 
 namespace encase {
 namespace {

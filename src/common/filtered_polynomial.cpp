@@ -11,20 +11,12 @@
 #include "common/dyadic.hpp"
 #include "common/interval.hpp"
 #include "common/mpfr_number.hpp"
-#include "encase/encasement.hpp"
+#include "common/rounding_bound.hpp"
+#include "common/taylor_to_bernstein.hpp"
 
-// Every quantity below is a sum of products of coefficients and coordinates. If each product passes
-// through at most m roundings, the computed sum errs by at most gamma_m times the same sum of
-// absolute values (Higham, Accuracy and Stability, section 3.1), gamma_m = m u / (1 - m u). The
-// counts m are derived in docs/error-bounds.md.
+// The error bounds are derived in docs/error-bounds.md; `gamma` has the rule.
 namespace encase {
 namespace {
-
-/// gamma_m for MPFR or double arithmetic with the given precision, rounded up. Beyond 1000 bits it
-/// would come near what underflows; 1000 are claimed then.
-double gamma(int roundings, int bits) {
-  return 1.01 * roundings * std::ldexp(1.0, -std::min(bits, 1000));
-}
 
 /// More than gradual underflow can add up to in the double rung: every loss is below 2^-1000 (also
 /// that of converting a coefficient), there are less than 2^30, and what is lost of a coefficient
@@ -39,47 +31,6 @@ double underflow(const Point<D>& magnitude, int degree) {
 }
 
 constexpr int kCoefficientRoundings = 2;  // mpq -> double truncates: at most one ulp
-
-/// Rows k, columns j: the Bernstein coefficients of s^k on [-1,1] in degree n. The blossom of s^k
-/// at j ones and n - j minus ones: an average of products of signs, hence at most 1 in absolute
-/// value.
-std::vector<double> make_conversion(int n) {
-  std::vector<double> table(static_cast<std::size_t>(n + 1) * (n + 1));
-  Integer chosen, p, q;
-  for (int k = 0; k <= n; ++k) {
-    mpz_bin_uiui(chosen.get_mpz_t(), n, k);
-    for (int j = 0; j <= n; ++j) {
-      Integer sum = 0;
-      for (int i = std::max(0, k - (n - j)); i <= std::min(j, k); ++i) {
-        mpz_bin_uiui(p.get_mpz_t(), j, i);
-        mpz_bin_uiui(q.get_mpz_t(), n - j, k - i);
-        if ((k - i) % 2)
-          sum -= p * q;
-        else
-          sum += p * q;
-      }
-      Rational entry(sum, chosen);
-      entry.canonicalize();
-      table[static_cast<std::size_t>(k) * (n + 1) + j] = entry.get_d();
-    }
-  }
-  return table;
-}
-
-const std::vector<double>& conversion(int n) {
-  static std::array<std::once_flag, 2 * kMaxDegree + 2> once;
-  static std::array<std::vector<double>, 2 * kMaxDegree + 2> tables;
-  std::call_once(once[n], [n] { tables[n] = make_conversion(n); });
-  return tables[n];
-}
-
-template <class Number>
-Number make_number(int bits) {
-  if constexpr (std::is_floating_point_v<Number>)
-    return 0;
-  else
-    return Number(bits);
-}
 
 /// r += a * x, entry by entry.
 void add_multiple(double* r, double a, const double* x, int count) {
@@ -124,55 +75,6 @@ std::vector<double> round_all(const std::vector<Number>& values, double* error) 
 }
 
 }  // namespace
-
-template <int K>
-void taylor_to_bernstein(const std::vector<double>& taylor, int n, double taylor_error,
-                         int net_degree, Bernstein<K>* net) {
-  double sum = 0;
-  for (double a : taylor) sum += std::fabs(a);
-  const double radius = 1.0000001 * taylor_error +
-                        gamma(K * (n + 4) + static_cast<int>(taylor.size()) / 64, 53) * sum;
-  net->degree.fill(net_degree);
-  const std::vector<double>& table = conversion(net_degree);
-  const int m = net_degree + 1;
-  thread_local std::vector<double> scratch;
-  net->b = taylor;
-  // From the last variable to the first: [outer: powers][n + 1][inner: already converted].
-  int inner = 1, outer = 1;
-  for (int i = 1; i < K; ++i) outer *= n + 1;
-  for (int axis = K - 1; axis >= 0; --axis) {
-    scratch.assign(static_cast<std::size_t>(outer) * m * inner, 0.0);
-    for (int o = 0; o < outer; ++o) {
-      int used = 0;
-      for (int rest = o; rest > 0; rest /= n + 1) used += rest % (n + 1);
-      for (int k = 0; k <= n - used; ++k) {
-        const double* row = &table[static_cast<std::size_t>(k) * m];
-        const double* from = &net->b[(static_cast<std::size_t>(o) * (n + 1) + k) * inner];
-        double* to = &scratch[static_cast<std::size_t>(o) * m * inner];
-        if (inner == 1) {
-          const double a = *from;
-          for (int j = 0; j < m; ++j) to[j] += row[j] * a;
-        } else {
-          for (int j = 0; j < m; ++j)
-            for (int i = 0; i < inner; ++i) to[j * inner + i] += row[j] * from[i];
-        }
-      }
-    }
-    net->b.swap(scratch);
-    inner *= m;
-    outer /= n + 1;
-  }
-  net->radius = radius;
-  // Far from overflow, or nothing is claimed.
-  if (!std::isfinite(radius) || !(sum < 0x1p900)) {
-    net->b.assign(net->b.size(), 0.0);
-    net->radius = std::numeric_limits<double>::infinity();
-  }
-}
-
-template void taylor_to_bernstein<1>(const std::vector<double>&, int, double, int, Bernstein<1>*);
-template void taylor_to_bernstein<2>(const std::vector<double>&, int, double, int, Bernstein<2>*);
-template void taylor_to_bernstein<3>(const std::vector<double>&, int, double, int, Bernstein<3>*);
 
 template <int D>
 struct FilteredPolynomial<D>::Cache {
@@ -422,129 +324,6 @@ typename FilteredPolynomial<D>::Taylor FilteredPolynomial<D>::taylor(const Box<D
   with_coefficients(bits, kernel, run);
   return result;
 }
-
-SegmentChart SegmentChart::of_line(const Line& line, double lo, double hi) {
-  SegmentChart chart;
-  chart.line_ = line;
-  chart.on_line_ = true;
-  chart.lo_ = lo;
-  chart.hi_ = hi;
-  return chart;
-}
-
-SegmentChart SegmentChart::between(const Point<2>& from, const Point<2>& to) {
-  SegmentChart chart;
-  chart.from_ = from;
-  chart.to_ = to;
-  return chart;
-}
-
-namespace {
-
-/// r = a line's coefficient (0, 1: normal, 2: offset); at most two roundings.
-template <class Number>
-void line_coefficient(const Line& line, int i, Number& r) {
-  if constexpr (!std::is_same_v<Number, double>) {
-    if (line.rational) {
-      assign(r, (*line.rational)[i]);
-      return;
-    }
-  }
-  assign(r, i < 2 ? line.normal[i] : line.offset);
-}
-
-}  // namespace
-
-SegmentChart SegmentChart::part(double lo, double hi) const {
-  SegmentChart chart = *this;
-  chart.lo_ = lo;
-  chart.hi_ = hi;
-  return chart;
-}
-
-double reach_across(const Line& line, double reach) {
-  const int p = parameter_axis(line), q = 1 - p;
-  const double b = std::fabs(line.normal[q]);
-  if (!(b >= 0x1p-900)) return std::numeric_limits<double>::infinity();
-  // Underflow loses less than 2^-1070 in a coefficient or product: nothing beside 2^-1000.
-  return ((std::fabs(line.normal[p]) + 0x1p-1000) * reach + std::fabs(line.offset) + 0x1p-1000) /
-             b * (1 + 0x1p-40) +
-         0x1p-1000;
-}
-
-Point<2> SegmentChart::reach() const {
-  // Sums of absolute values of the terms that make up a coordinate on the chart: of m + h s, and of
-  // (from + to) / 2 + (to - from) / 2 (m + h s), where |s| <= 1.
-  const Centered parameter = centered(lo_, hi_);
-  const double extent = (std::fabs(parameter.center) + parameter.half) * (1 + 0x1p-40);
-  Point<2> reach;
-  if (on_line_) {
-    const int p = parameter_axis(line_), q = 1 - p;
-    reach[p] = extent;
-    reach[q] = reach_across(line_, reach[p]);
-  } else {
-    for (int i = 0; i < 2; ++i)
-      reach[i] = 0.5 * (std::fabs(from_[i]) + std::fabs(to_[i])) * (1 + extent) * (1 + 0x1p-40);
-  }
-  return reach;
-}
-
-int SegmentChart::roundings() const {
-  // On a line: a p, + c, / b, and two more for each of three rational coefficients that are
-  // rounded; between two points: sum or difference, times the middle, sum.
-  return on_line_ ? (line_.rational ? 9 : 3) : 5;
-}
-
-template <class Number>
-void SegmentChart::origin_and_direction(std::array<Number, 2>* origin,
-                                        std::array<Number, 2>* direction) const {
-  // The parameter p = m + h s.
-  const double m = centered(lo_, hi_).center, h = centered(lo_, hi_).half;
-  Number half = (*origin)[0];
-  if (!on_line_) {
-    // (from + to) / 2 + (to - from) / 2 (m + h s)
-    Number middle = half, reach = half;
-    assign(half, 0.5);
-    assign(middle, m);
-    assign(reach, h);
-    for (int i = 0; i < 2; ++i) {
-      Number from = half, to = half;
-      assign(from, from_[i]);
-      assign(to, to_[i]);
-      (*origin)[i] = from;
-      add((*origin)[i], to);
-      multiply((*origin)[i], half);
-      negate(from);
-      add(to, from);
-      multiply(to, half);
-      add_product((*origin)[i], to, middle);
-      multiply(to, reach);
-      (*direction)[i] = to;
-    }
-    return;
-  }
-  // The other coordinate is -(a p + c) / b.
-  const int p = parameter_axis(line_), q = 1 - p;
-  assign((*origin)[p], m);
-  assign((*direction)[p], h);
-  Number a = half, b = half, c = half;
-  line_coefficient(line_, p, a);
-  line_coefficient(line_, q, b);
-  line_coefficient(line_, 2, c);
-  negate(b);
-  add_product(c, a, (*origin)[p]);
-  divide(c, b);
-  (*origin)[q] = c;
-  multiply(a, (*direction)[p]);
-  divide(a, b);
-  (*direction)[q] = a;
-}
-
-template void SegmentChart::origin_and_direction(std::array<double, 2>*,
-                                                 std::array<double, 2>*) const;
-template void SegmentChart::origin_and_direction(std::array<long double, 2>*,
-                                                 std::array<long double, 2>*) const;
-template void SegmentChart::origin_and_direction(std::array<Mpfr, 2>*, std::array<Mpfr, 2>*) const;
 
 template <int D>
 void FilteredPolynomial<D>::restrict_to(const SegmentChart& segment, int bits, Kernel& kernel,

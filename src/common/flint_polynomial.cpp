@@ -3,23 +3,20 @@
 
 #include <vector>
 
+#include "common/integer_terms.hpp"
+
 namespace encase {
 
 template <int D>
 Integer FlintPolynomial<D>::set(const Polynomial<D>& f) {
-  Integer denominator = 1;
-  for (const auto& term : f.terms())
-    mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(),
-            term.coefficient.get_den().get_mpz_t());
+  const Integer denominator = common_denominator(f);
   fmpz_mpoly_zero(value_, context_);
   fmpz_t coefficient;
   fmpz_init(coefficient);
   std::array<ulong, D> exponent;
   // FLINT keeps terms in descending order, Polynomial in ascending.
   for (auto term = f.terms().rbegin(); term != f.terms().rend(); ++term) {
-    const Integer scaled =
-        term->coefficient.get_num() * (denominator / term->coefficient.get_den());
-    fmpz_set_mpz(coefficient, scaled.get_mpz_t());
+    fmpz_set_mpz(coefficient, scaled(term->coefficient, denominator).get_mpz_t());
     for (int i = 0; i < D; ++i) exponent[i] = static_cast<ulong>(term->exponent[i]);
     fmpz_mpoly_push_term_fmpz_ui(value_, coefficient, exponent.data(), context_);
   }

@@ -3,6 +3,7 @@
 
 #include <mpfr.h>
 
+#include <type_traits>
 #include <utility>
 
 #include "encase/number.hpp"
@@ -40,6 +41,15 @@ class Mpfr {
  private:
   mpfr_t value_;
 };
+
+/// Zero in a kind of numbers, of a precision if it has several.
+template <class Number>
+Number make_number(int bits) {
+  if constexpr (std::is_floating_point_v<Number>)
+    return 0;
+  else
+    return Number(bits);
+}
 
 // What the templated algorithms ask of a number: each of these rounds at most twice.
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/integer_terms.hpp"
 #include "flint_polynomial.hpp"
 
 namespace encase {
@@ -194,12 +195,10 @@ Rational Polynomial<D>::operator()(const RationalPoint<D>& point) const {
     }
     denominator *= scale;
   }
-  Integer common = 1;
-  for (const Term& term : terms())
-    mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), term.coefficient.get_den().get_mpz_t());
+  const Integer common = common_denominator(*this);
   Integer sum = 0;
   for (const Term& term : terms()) {
-    Integer product = term.coefficient.get_num() * (common / term.coefficient.get_den());
+    Integer product = scaled(term.coefficient, common);
     for (int i = 0; i < D; ++i) product *= factor[i][term.exponent[i]];
     sum += product;
   }

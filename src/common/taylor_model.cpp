@@ -5,49 +5,13 @@
 #include <type_traits>
 #include <utility>
 
-#include "common/point_enclosures.hpp"
+#include "common/taylor_bounds.hpp"
 
 namespace encase {
+
+using namespace taylor;
+
 namespace {
-
-constexpr double kUp = 1 + 0x1p-40;      // outweighs the roundings of the sums it multiplies
-constexpr double kDown = 1 - 0x1p-40;    // likewise
-constexpr double kUnderflow = 0x1p-960;  // more than what underflows in one operation
-constexpr double kLargest = 0x1p900;     // beyond it nothing is claimed
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-/// Not less, and not more, than |x|.
-double at_least(double x) { return std::fabs(x); }
-double at_least(const Mpfr& x) { return std::fabs(mpfr_get_d(x.get(), MPFR_RNDA)); }
-double at_most(double x) { return std::fabs(x); }
-double at_most(const Mpfr& x) { return std::fabs(mpfr_get_d(x.get(), MPFR_RNDZ)); }
-
-bool is_zero(double x) { return x == 0; }
-bool is_zero(const Mpfr& x) { return mpfr_zero_p(x.get()); }
-bool is_positive(double x) { return x > 0; }
-bool is_positive(const Mpfr& x) { return mpfr_sgn(x.get()) > 0; }
-
-void divide_by(double& r, int n) { r /= n; }
-void divide_by(Mpfr& r, int n) { mpfr_div_si(r.get(), r.get(), n, MPFR_RNDN); }
-void multiply_by(double& r, int n) { r *= n; }
-void multiply_by(Mpfr& r, int n) { mpfr_mul_si(r.get(), r.get(), n, MPFR_RNDN); }
-bool less(double a, double b) { return a < b; }
-bool less(const Mpfr& a, const Mpfr& b) { return mpfr_less_p(a.get(), b.get()); }
-
-/// run(r, x) with MPFR numbers that have the precision of `Number`, where r is correctly rounded.
-template <class Run>
-double rounded(double x, Run run) {
-  thread_local Mpfr from(53), to(53);
-  mpfr_set_d(from.get(), x, MPFR_RNDN);
-  run(to.get(), from.get());
-  return mpfr_get_d(to.get(), MPFR_RNDN);
-}
-template <class Run>
-Mpfr rounded(const Mpfr& x, Run run) {
-  Mpfr to(static_cast<int>(mpfr_get_prec(x.get())));
-  run(to.get(), x.get());
-  return to;
-}
 
 /// f(offset, count, degree) for the rows of coefficients that a model has: where they begin, how
 /// many there are, and the total degree of the first.
@@ -107,22 +71,6 @@ bool both_exist(const TaylorModel<D, Number>& a, const TaylorModel<D, Number>& b
   if (a.exists() && b.exists()) return true;
   r->claim_nothing(a.undefined || b.undefined);
   return false;
-}
-
-/// x^k / k! e^x for k = n + 1, rounded up: the rest of the exponential series from there.
-double exponential_tail(double x, int n) {
-  if (!(x < 600)) return kInfinite;
-  double tail = std::ldexp(1.0, static_cast<int>(x * 1.4427) + 1);  // e < 2^1.4427
-  for (int k = 1; k <= n + 1; ++k) tail *= x / k * kUp;
-  return tail;
-}
-
-/// q^(n+1) / (1 - q), rounded up.
-double geometric_tail(double q, int n) {
-  if (!(q < 1)) return kInfinite;
-  double tail = kUp / (1 - q);
-  for (int k = 0; k <= n; ++k) tail *= q * kUp;
-  return tail;
 }
 
 }  // namespace
@@ -276,16 +224,16 @@ void TaylorArithmetic<D, Number>::add(const Model& a, const Model& b, bool subtr
 
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::multiply(const Model& a, const Model& b, Model* r) const {
-  multiply(a, b, max_degree_, r);
+  multiply_up_to(max_degree_, a, b, r);
 }
 
 /// Without the terms beyond a total degree: these go to the error.
 template <int D, class Number>
-void TaylorArithmetic<D, Number>::multiply(const Model& a, const Model& b, int limit,
-                                           Model* r) const {
+void TaylorArithmetic<D, Number>::multiply_up_to(int limit, const Model& a, const Model& b,
+                                                 Model* r) const {
   if (!both_exist(a, b, r)) return;
   const int terms_a = terms(a), terms_b = terms(b);
-  if (terms_a > terms_b) return multiply(b, a, limit, r);
+  if (terms_a > terms_b) return multiply_up_to(limit, b, a, r);
   r->degree = std::min(a.degree + b.degree, limit);
   for (std::size_t k = 0; k < D; ++k) r->span[k] = std::min(a.span[k] + b.span[k], r->degree);
   Number* c = r->c.data();
@@ -317,7 +265,6 @@ void TaylorArithmetic<D, Number>::multiply(const Model& a, const Model& b, int l
   measure(r);
 }
 
-/// At least the norm of the model less its constant term.
 template <int D, class Number>
 double TaylorArithmetic<D, Number>::rest_norm(const Model& a) const {
   double rest = a.error;
@@ -325,9 +272,6 @@ double TaylorArithmetic<D, Number>::rest_norm(const Model& a) const {
   return rest * kUp;
 }
 
-/// The sum of series_[k] d^k, where a = u + d with the constant term u and |d| <= `rest`. The
-/// coefficients err by relative[k] of gamma(1), `tail` bounds the sum of the terms beyond the
-/// highest degree.
 template <int D, class Number>
 void TaylorArithmetic<D, Number>::compose(Model& a, double rest, double tail,
                                           const double* relative, Model* r) {
@@ -351,7 +295,7 @@ void TaylorArithmetic<D, Number>::compose(Model& a, double rest, double tail,
   const double constant_norm = std::exchange(a.norm[0], 0.0);
   constant(series_[static_cast<std::size_t>(last)], 0, r);
   for (int k = last - 1; k >= 0 && r->exists(); --k) {
-    multiply(a, *r, max_degree_ - k, &next_);
+    multiply_up_to(max_degree_ - k, a, *r, &next_);
     std::swap(next_, *r);
     // (The constant term of the product is zero.)
     r->c[0] = series_[static_cast<std::size_t>(k)];
@@ -410,240 +354,6 @@ void TaylorArithmetic<D, Number>::power(Model& a, int exponent, Model* r) {
 }
 
 template <int D, class Number>
-void TaylorArithmetic<D, Number>::sqrt(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing(a.undefined);
-  const double rest = rest_norm(a), least = at_most(a.c[0]) * kDown;
-  if (!(rest < least)) return r->claim_nothing();
-  if (!is_positive(a.c[0])) return r->claim_nothing(true);  // negative everywhere
-  Number inverse = number(1);
-  encase::divide(inverse, a.c[0]);
-  Number next = rounded(a.c[0], [](mpfr_ptr to, mpfr_srcptr x) { mpfr_sqrt(to, x, MPFR_RNDN); });
-  const double root = at_least(next);
-  std::array<double, Model::kMaxDegree + 1> relative;
-  for (int k = 0; k <= max_degree_; ++k) {
-    series_[static_cast<std::size_t>(k)] = next;
-    relative[static_cast<std::size_t>(k)] = 4 * k + 1;
-    // The binomial coefficients of 1/2.
-    encase::multiply(next, inverse);
-    multiply_by(next, 1 - 2 * k);
-    divide_by(next, 2 * k + 2);
-  }
-  const double tail = geometric_tail(rest / least * kUp, max_degree_) * root * kUp;
-  compose(a, rest, tail, relative.data(), r);
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::exp(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing(a.undefined);
-  const double rest = rest_norm(a);
-  Number next = number(0);
-  double error = 0;  // of this number, where it is not correctly rounded
-  bool known = false;
-  if constexpr (std::is_same_v<Number, double>) {
-    known = point::can_exp(a.c[0]);
-    if (known) {
-      const Interval enclosure = point::exp(a.c[0]);
-      next = enclosure.mid();
-      error = enclosure.width() * kUp;
-    }
-  }
-  if (!known)
-    next = rounded(a.c[0], [](mpfr_ptr to, mpfr_srcptr x) { mpfr_exp(to, x, MPFR_RNDN); });
-  const double value = (at_least(next) + error) * kUp + kUnderflow;
-  std::array<double, Model::kMaxDegree + 1> relative;
-  for (int k = 0; k <= max_degree_; ++k) {
-    series_[static_cast<std::size_t>(k)] = next;
-    relative[static_cast<std::size_t>(k)] = k + 1;
-    divide_by(next, k + 1);
-  }
-  const double tail = exponential_tail(rest, max_degree_) * value * kUp;
-  compose(a, rest, tail + error * exponential_tail(rest, -1) * kUp, relative.data(), r);
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::log(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing(a.undefined);
-  const double rest = rest_norm(a), least = at_most(a.c[0]) * kDown;
-  if (!(rest < least)) return r->claim_nothing();
-  if (!is_positive(a.c[0])) return r->claim_nothing(true);  // negative everywhere
-  Number inverse = number(1);
-  encase::divide(inverse, a.c[0]);
-  series_[0] = rounded(a.c[0], [](mpfr_ptr to, mpfr_srcptr x) { mpfr_log(to, x, MPFR_RNDN); });
-  std::array<double, Model::kMaxDegree + 1> relative{1};
-  Number power = inverse;
-  for (int k = 1; k <= max_degree_; ++k) {
-    Number& term = series_[static_cast<std::size_t>(k)];
-    term = power;
-    divide_by(term, k);
-    relative[static_cast<std::size_t>(k)] = 2 * k + 1;
-    encase::multiply(power, inverse);
-    encase::negate(power);
-  }
-  compose(a, rest, geometric_tail(rest / least * kUp, max_degree_), relative.data(), r);
-}
-
-/// The sine, and the cosine, of a number (or the hyperbolic ones), each within `error` of what is
-/// within half a unit in the last place of the exact one.
-template <int D, class Number>
-Number TaylorArithmetic<D, Number>::sine_and_cosine(const Number& of, bool circular, Number* cosine,
-                                                    double* error) const {
-  if constexpr (std::is_same_v<Number, double>) {
-    if (circular && std::fabs(of) <= point::kLargestReduced) {
-      const point::Reduced reduced = point::reduce(of);
-      const Interval s = point::sine(reduced, 0), c = point::sine(reduced, 1);
-      *cosine = c.mid();
-      *error = std::max(s.width(), c.width()) * kUp;
-      return s.mid();
-    }
-  }
-  return rounded(of, [&](mpfr_ptr to, mpfr_srcptr x) {
-    thread_local Mpfr other(53);
-    if (mpfr_get_prec(other.get()) != mpfr_get_prec(to)) other = Mpfr(bits_);
-    circular ? mpfr_sin_cos(to, other.get(), x, MPFR_RNDN)
-             : mpfr_sinh_cosh(to, other.get(), x, MPFR_RNDN);
-    if constexpr (std::is_same_v<Number, double>)
-      *cosine = mpfr_get_d(other.get(), MPFR_RNDN);
-    else
-      *cosine = other;
-  });
-}
-
-/// sin, cos, sinh, cosh: their derivatives are themselves and another one, up to signs.
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::entire(Model& a, Kind kind, Model* r) {
-  if (!a.exists()) return r->claim_nothing(a.undefined);
-  const double rest = rest_norm(a);
-  const bool circular = kind == Kind::Sin || kind == Kind::Cos;
-  Number cosine = number(0);
-  double error = 0;  // of the sine and of the cosine, where they are not correctly rounded
-  const Number sine = sine_and_cosine(a.c[0], circular, &cosine, &error);
-  Number values[2] = {sine, cosine};
-  bool negative[2] = {false, false};
-  if (kind == Kind::Cos || kind == Kind::Cosh) std::swap(values[0], values[1]);
-  // Of the circular ones every second is the first with another sign: sin, cos, -sin, -cos; cos,
-  // -sin, -cos, sin.
-  if (kind == Kind::Cos) negative[1] = true;
-  Number inverse_factorial = number(1);
-  std::array<double, Model::kMaxDegree + 1> relative;
-  for (int k = 0; k <= max_degree_; ++k) {
-    Number& term = series_[static_cast<std::size_t>(k)];
-    term = values[k % 2];
-    encase::multiply(term, inverse_factorial);
-    if (circular && negative[k % 2] != (k % 4 >= 2)) encase::negate(term);
-    relative[static_cast<std::size_t>(k)] = k + 2;
-    divide_by(inverse_factorial, k + 1);
-  }
-  const double most = circular ? 1 : at_least(cosine) * kUp;
-  const double tail = exponential_tail(rest, max_degree_) * most * kUp;
-  compose(a, rest, tail + error * exponential_tail(rest, -1) * kUp, relative.data(), r);
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::sin(Model& a, Model* r) {
-  entire(a, Kind::Sin, r);
-}
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::cos(Model& a, Model* r) {
-  entire(a, Kind::Cos, r);
-}
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::sinh(Model& a, Model* r) {
-  entire(a, Kind::Sinh, r);
-}
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::cosh(Model& a, Model* r) {
-  entire(a, Kind::Cosh, r);
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::tan(Model& a, Model* r) {
-  entire(a, Kind::Cos, &first_);
-  invert(first_, &second_);
-  entire(a, Kind::Sin, &first_);
-  multiply(first_, second_, r);
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::tanh(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing(a.undefined);
-  // (1 - w) / (1 + w), w = exp(-2 u); the other sign where u is negative, so that w <= 1.
-  const bool negative = !is_positive(a.c[0]);
-  constant(number(negative ? 2 : -2), 0, &first_);
-  multiply(first_, a, &second_);
-  exp(second_, &first_);
-  constant(number(1), 0, &third_);
-  add(third_, first_, false, &second_);
-  add(third_, first_, true, r);
-  std::swap(third_, *r);
-  invert(second_, &first_);
-  if (negative) {
-    multiply(third_, first_, &second_);
-    this->negate(second_, r);
-  } else {
-    multiply(third_, first_, r);
-  }
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::atan(Model& a, Model* r) {
-  if (!a.exists()) return r->claim_nothing(a.undefined);
-  // The derivative is the imaginary part of 1 / (u - i): z^k with z = (u + i) / (1 + u^2).
-  const double rest = rest_norm(a), u = at_most(a.c[0]) * kDown;
-  const double radius = std::sqrt(1 + u * u) * kDown;
-  if (!(rest < radius)) return r->claim_nothing();
-  series_[0] = rounded(a.c[0], [](mpfr_ptr to, mpfr_srcptr x) { mpfr_atan(to, x, MPFR_RNDN); });
-  Number square = number(1);
-  add_product(square, a.c[0], a.c[0]);
-  Number real = a.c[0], imaginary = number(1);
-  encase::divide(real, square);
-  encase::divide(imaginary, square);
-  const Number x = real, y = imaginary;
-  std::array<double, Model::kMaxDegree + 1> relative{1};
-  double rounding = 0, power = 1;
-  for (int k = 1; k <= max_degree_; ++k) {
-    Number& term = series_[static_cast<std::size_t>(k)];
-    term = imaginary;
-    divide_by(term, k % 2 ? k : -k);
-    relative[static_cast<std::size_t>(k)] = 0;
-    // Relative to |z|^k / k, not to the imaginary part.
-    power *= rest / radius * kUp;
-    rounding += (6 * k + 1) * power;
-    Number product = real;
-    encase::multiply(product, y);
-    encase::multiply(real, x);
-    Number other = imaginary;
-    encase::multiply(other, y);
-    encase::negate(other);
-    encase::add(real, other);
-    encase::multiply(imaginary, x);
-    encase::add(imaginary, product);
-  }
-  const double tail = geometric_tail(rest / radius * kUp, max_degree_) + gamma(1) * 1.01 * rounding;
-  compose(a, rest, tail, relative.data(), r);
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::asin(Model& a, Model* r) {
-  // atan(u / sqrt(1 - u^2)).
-  multiply(a, a, &first_);
-  constant(number(1), 0, &second_);
-  add(second_, first_, true, &third_);
-  sqrt(third_, &first_);
-  invert(first_, &second_);
-  multiply(a, second_, &first_);
-  atan(first_, r);
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::acos(Model& a, Model* r) {
-  asin(a, &second_);
-  pi(&first_);
-  constant(number(0.5), 0, &third_);
-  multiply(third_, first_, &next_);
-  add(next_, second_, true, r);
-}
-
-template <int D, class Number>
 void TaylorArithmetic<D, Number>::abs(const Model& a, Model* r) const {
   if (!a.exists()) return r->claim_nothing(a.undefined);
   if (!at_point_ && !(rest_norm(a) < at_most(a.c[0]))) return r->claim_nothing();
@@ -666,20 +376,6 @@ void TaylorArithmetic<D, Number>::choose(const Model& a, const Model& b, bool sm
   add(a, b, true, r);
   if (!r->exists() || !(rest_norm(*r) < at_most(r->c[0]))) return r->claim_nothing();
   copy(first ? a : b, r);
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::pi(Model* r) const {
-  const Number value =
-      rounded(number(0), [](mpfr_ptr to, mpfr_srcptr) { mpfr_const_pi(to, MPFR_RNDN); });
-  constant(value, gamma(4), r);
-}
-
-template <int D, class Number>
-void TaylorArithmetic<D, Number>::euler(Model* r) const {
-  const Number value =
-      rounded(number(1), [](mpfr_ptr to, mpfr_srcptr x) { mpfr_exp(to, x, MPFR_RNDN); });
-  constant(value, gamma(3), r);
 }
 
 template class TaylorArithmetic<1, double>;

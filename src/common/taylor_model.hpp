@@ -78,46 +78,33 @@ class TaylorArithmetic {
   void invert(Model& a, Model* r);
   void divide(const Model& a, Model& b, Model* r);
   void power(Model& a, int exponent, Model* r);
-  void sqrt(Model& a, Model* r);
-  void exp(Model& a, Model* r);
-  void log(Model& a, Model* r);
-  void sin(Model& a, Model* r);
-  void cos(Model& a, Model* r);
-  void tan(Model& a, Model* r);
-  void asin(Model& a, Model* r);
-  void acos(Model& a, Model* r);
-  void atan(Model& a, Model* r);
-  void sinh(Model& a, Model* r);
-  void cosh(Model& a, Model* r);
-  void tanh(Model& a, Model* r);
   void abs(const Model& a, Model* r) const;
   void least(const Model& a, const Model& b, Model* r) const { choose(a, b, true, r); }
   void greatest(const Model& a, const Model& b, Model* r) const { choose(a, b, false, r); }
-  /// A correctly rounded constant.
-  void pi(Model* r) const;
-  void euler(Model* r) const;
 
- private:
-  using Series = std::vector<Number>;
-  enum class Kind { Sin, Cos, Sinh, Cosh };
-
+ protected:
   double gamma(int roundings) const { return 1.01 * roundings * unit_; }
   Number number(double value) const;
-  void multiply(const Model& a, const Model& b, int limit, Model* r) const;
+  /// At least the norm of the model less its constant term.
+  double rest_norm(const Model& a) const;
+  /// The sum of series_[k] d^k, where a = u + d with the constant term u and |d| <= `rest`. The
+  /// coefficients err by relative[k] of gamma(1), `tail` bounds the sum of the terms beyond the
+  /// highest degree. Uses next_.
+  void compose(Model& a, double rest, double tail, const double* relative, Model* r);
+
+  std::vector<Number> series_;
+  Model next_, first_, second_, third_;  ///< intermediate results of functions
+
+ private:
+  void multiply_up_to(int limit, const Model& a, const Model& b, Model* r) const;
   void copy(const Model& a, Model* r) const;
   void measure(Model* r) const;
-  double rest_norm(const Model& a) const;
-  void compose(Model& a, double rest, double tail, const double* relative, Model* r);
-  Number sine_and_cosine(const Number& of, bool circular, Number* cosine, double* error) const;
-  void entire(Model& a, Kind kind, Model* r);
   void choose(const Model& a, const Model& b, bool smaller, Model* r) const;
 
   int max_degree_ = 0;
   int bits_ = 53;
   bool at_point_ = false;
   double unit_ = 0x1p-53;
-  Series series_;
-  Model next_, first_, second_, third_;  ///< intermediate results of the functions
 };
 
 }  // namespace encase

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Taylor models of expressions against values and derivatives in MPFR.
-#include "common/taylor_model.hpp"
+#include "common/taylor_functions.hpp"
 
 #include <gtest/gtest.h>
 
