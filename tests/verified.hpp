@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "encase/verify.hpp"
 #include "hand_made_encasement.hpp"
+#include "objections.hpp"
 
 /// Encasements to verify, most of them made by hand, and what verification says of them.
 namespace encase::verified {
@@ -116,12 +116,6 @@ inline Encasement four_curves() {
                                        {"falling", linear(1, Rational(1, 3), Rational(1, 9))},
                                        {"far", far}};
   return encase(curves, make_region(-1, 1, -1, 1).value()).value();
-}
-
-inline std::string text(const Verification& verification) {
-  std::string all;
-  for (const std::string& objection : verification.objections) all += objection + "\n";
-  return all;
 }
 
 inline void expect_accepted(const Encasement& e) {

@@ -13,7 +13,7 @@
 #include "encase/arrangement.hpp"
 #include "encase/crossing.hpp"
 #include "encase/tracing.hpp"
-#include "encase/verify.hpp"
+#include "objections.hpp"
 
 namespace encase {
 namespace {
@@ -32,12 +32,6 @@ Polynomial<2> constant(const Rational& value) { return Polynomial<2>::constant(v
 Encasement encased(const Function<2>& f, const Function<2>& g, const Rational& half) {
   const Region region = make_region(-half, half, -half, half).value();
   return encase({{"f", f}, {"g", g}}, region).value();
-}
-
-std::string text(const Verification& verification) {
-  std::string all;
-  for (const std::string& objection : verification.objections) all += objection + "\n";
-  return all;
 }
 
 /// sin(3 x) = y and cos(2 x) = y + 1/10.

@@ -11,25 +11,18 @@
 #include "encase/arrangement.hpp"
 #include "encase/tracing.hpp"
 #include "encase/verify.hpp"
+#include "encased.hpp"
 #include "located_points.hpp"
 #include "mpfr_search.hpp"
 #include "mutations.hpp"
+#include "objections.hpp"
 
 namespace encase {
 namespace {
 
+using encased::expect_verified;
+
 using analytic::Scene;
-
-std::string text(const Verification& verification) {
-  std::string all;
-  for (const std::string& objection : verification.objections) all += objection + "\n";
-  return all;
-}
-
-void expect_verified(const Encasement& e) {
-  const Verification verification = verify(e);
-  EXPECT_TRUE(verification.ok()) << text(verification);
-}
 
 RationalBox exactly(const Box<2>& box) {
   RationalBox result;

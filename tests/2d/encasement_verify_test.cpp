@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "common/random_polynomials.hpp"
-#include "encase/verify.hpp"
+#include "encased.hpp"
 #include "mutations.hpp"
+#include "objections.hpp"
 
 namespace encase {
 namespace {
+
+using encased::expect_verified;
 
 Region square(const Rational& half) { return make_region(-half, half, -half, half).value(); }
 
@@ -23,17 +26,6 @@ std::vector<NamedCurve> random(int degree, int count, int seed, RandomOptions::K
   options.count = count;
   options.seed = static_cast<std::uint64_t>(seed);
   return random_curves(options);
-}
-
-std::string text(const Verification& verification) {
-  std::string all;
-  for (const std::string& objection : verification.objections) all += objection + "\n";
-  return all;
-}
-
-void expect_verified(const Encasement& e) {
-  const Verification verification = verify(e);
-  EXPECT_TRUE(verification.ok()) << text(verification);
 }
 
 class VerifiedPair : public testing::TestWithParam<std::tuple<int, int>> {

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "2d/locate.hpp"
 #include "encase/verify.hpp"
 #include "written.hpp"
@@ -53,44 +57,47 @@ TEST(Partition, ParameterGrowsCounterClockwiseAroundASquare) {
   }
 }
 
-TEST(Partition, DoesNotOpenWhereACurvePassesThroughACorner) {
+/// A curve in the square [-1,1]^2, to be partitioned.
+struct CurveInSquare {
+  explicit CurveInSquare(const std::string& text) {
+    curves.emplace_back(written::polynomial<2>(text));
+    for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
+    tiles.emplace_back(curves[0], Box<2>{{-2, -2}, {2, 2}}, kernel);
+    nested.emplace(curves, tiles, Point<2>{0, 0}, false, kernel);
+  }
+  Partition partition() { return Partition(curves, *nested, features, kernel); }
+
   Kernel kernel;
-  std::vector<FilteredFunction<2>> curves;
-  curves.emplace_back(Polynomial<2>::variable(0) - Polynomial<2>::variable(1));
   const Region square = make_region(-1, 1, -1, 1).value();
   std::vector<Line> sides;
-  for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
+  std::vector<FilteredFunction<2>> curves;
   std::vector<TiledFunction> tiles;
-  for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
-  NestedTiles nested(curves, tiles, {0, 0}, false, kernel);
+  std::optional<NestedTiles> nested;
   Features features;
-  Partition partition(curves, nested, features, kernel);
-  EXPECT_FALSE(partition.open(sides).has_value());
+};
+
+TEST(Partition, DoesNotOpenWhereACurvePassesThroughACorner) {
+  CurveInSquare given("x - y");
+  const Region square = given.square;
+  Partition partition = given.partition();
+  EXPECT_FALSE(partition.open(given.sides).has_value());
   // A slightly larger polygon moves the corners off the curve, and contains the square.
   const auto larger = enlarged(square, 1);
   ASSERT_TRUE(larger.has_value());
-  sides.clear();
+  std::vector<Line> sides;
   for (int k = 0; k < 4; ++k) sides.push_back(larger->side(k));
   for (const auto& corner : square.corners)
-    for (const Line& side_line : sides) EXPECT_EQ(side(side_line, corner, kernel), Sign::Negative);
+    for (const Line& side_line : sides)
+      EXPECT_EQ(side(side_line, corner, given.kernel), Sign::Negative);
   const auto cell = partition.open(sides);
   ASSERT_TRUE(cell.has_value());
   EXPECT_EQ(cell->word.size(), 2u);
 }
 
 TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
-  Kernel kernel;
-  std::vector<FilteredFunction<2>> curves;
-  curves.emplace_back(Polynomial<2>::variable(0) - Polynomial<2>::constant(Rational(1, 3)));
-  const Region square = make_region(-1, 1, -1, 1).value();
-  std::vector<Line> sides;
-  for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
-  std::vector<TiledFunction> tiles;
-  for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
-  NestedTiles nested(curves, tiles, {0, 0}, false, kernel);
-  Features features;
-  Partition partition(curves, nested, features, kernel);
-  const auto cell = partition.open(sides);
+  CurveInSquare given("x - 1/3");
+  Partition partition = given.partition();
+  const auto cell = partition.open(given.sides);
   ASSERT_TRUE(cell.has_value());
   const auto line = [](double a, double b, double c) {
     Line l;
@@ -120,18 +127,9 @@ TEST(Partition, RefusesLinesThatMissTheCellOrMeetAVertex) {
 }
 
 TEST(Partition, JoinsWhatAPartMadeOfAHalf) {
-  Kernel kernel;
-  std::vector<FilteredFunction<2>> curves;
-  curves.emplace_back(Polynomial<2>::variable(0) - Polynomial<2>::constant(Rational(1, 3)));
-  const Region square = make_region(-1, 1, -1, 1).value();
-  std::vector<Line> sides;
-  for (int k = 0; k < 4; ++k) sides.push_back(square.side(k));
-  std::vector<TiledFunction> tiles;
-  for (const auto& f : curves) tiles.emplace_back(f, Box<2>{{-2, -2}, {2, 2}}, kernel);
-  NestedTiles nested(curves, tiles, {0, 0}, false, kernel);
-  Features features;
-  Partition whole(curves, nested, features, kernel);
-  const auto cell = whole.open(sides);
+  CurveInSquare given("x - 1/3");
+  Partition whole = given.partition();
+  const auto cell = whole.open(given.sides);
   ASSERT_TRUE(cell.has_value());
   const auto cut = [](Partition& partition, const OpenCell& from, double height, OpenCell* below,
                       OpenCell* above) {
@@ -146,7 +144,7 @@ TEST(Partition, JoinsWhatAPartMadeOfAHalf) {
   OpenCell below, above;
   ASSERT_TRUE(cut(whole, *cell, 0.25, &below, &above));
 
-  Partition part(curves, nested, features, kernel);
+  Partition part = given.partition();
   const OpenCell lower = part.begin(whole, below);
   ASSERT_EQ(part.lines.size(), 4u);
   ASSERT_EQ(part.line_crossings.size(), 2u);
@@ -178,7 +176,7 @@ TEST(Partition, JoinsWhatAPartMadeOfAHalf) {
   EXPECT_EQ(whole.history[0].negative, 1);
   EXPECT_EQ(whole.history[1].line, 5);
   // A part that was not cut is one cell.
-  Partition upper(curves, nested, features, kernel);
+  Partition upper = given.partition();
   upper.begin(whole, above);
   whole.join(above, upper, 9);
   EXPECT_EQ(whole.history[0].positive, ~9);

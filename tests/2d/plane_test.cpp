@@ -11,6 +11,7 @@
 #include "encase/curves_file.hpp"
 #include "encase/result_json.hpp"
 #include "encased.hpp"
+#include "objections.hpp"
 
 namespace encase {
 namespace {
@@ -199,9 +200,7 @@ TEST(Plane, ResultsAreReadAgain) {
 /// What the checker objects to when `change` was made.
 std::string objections(Encasement e, const std::function<void(Encasement&)>& change) {
   change(e);
-  std::string all;
-  for (const std::string& objection : verify(e).objections) all += objection + "\n";
-  return all;
+  return text(verify(e));
 }
 
 TEST(Plane, TheCheckerObjects) {

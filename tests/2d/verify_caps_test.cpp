@@ -10,8 +10,8 @@
 
 #include "encase/caps.hpp"
 #include "encase/curves_file.hpp"
-#include "encase/verify.hpp"
 #include "encased.hpp"
+#include "objections.hpp"
 
 namespace encase {
 namespace {
@@ -27,12 +27,6 @@ CapsResult run(const std::vector<std::string>& texts, double epsilon = 1e-3,
   options.epsilon = epsilon;
   options.self_crossings = self_crossings;
   return caps(curves, encased::rectangle(-3, 4, -3, 3), options).value();
-}
-
-std::string text(const Verification& verification) {
-  std::string all;
-  for (const std::string& objection : verification.objections) all += objection + "\n";
-  return all;
 }
 
 void expect_accepted(const CapsResult& result) {
