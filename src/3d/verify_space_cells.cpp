@@ -246,54 +246,6 @@ class CellChecker {
 
 }  // namespace
 
-namespace {
-
-/// Every edge of a surface on a facet is in one loop of each certified cell beside it, every
-/// crossing on it is the end of one arc there, and every triple point is on three arcs of its cell.
-/// (This follows from the reading of the cells; it does not rest on how they are read.)
-void check_gluing(SpaceClaims& claims) {
-  const SurfaceEncasement& e = claims.result;
-  std::map<std::array<int, 2>, int> loops, ends;  // by cell, and half-edge or facet point
-  std::vector<std::size_t> first_edge{0};
-  for (const Facet& f : e.facets)
-    first_edge.push_back(first_edge.back() + f.arrangement.edges.size());
-  std::vector<int> arcs_through(e.triple_points.size(), 0);
-  for (std::size_t c = 0; c < e.cells.size(); ++c) {
-    const int cell = static_cast<int>(c);
-    for (const SurfacePatch& patch : e.cells[c].patches)
-      for (const FacetEdge& edge : patch.loop)
-        ++loops[{cell, static_cast<int>(first_edge[static_cast<std::size_t>(edge.facet)]) +
-                           edge.half_edge / 2}];
-    for (const SurfaceArc& arc : e.cells[c].arcs) {
-      for (const int end : arc.ends) ++ends[{cell, end}];
-      for (const int t : arc.triple_points) ++arcs_through[static_cast<std::size_t>(t)];
-    }
-  }
-  bool edges = true, crossings = true, triples = true;
-  for (std::size_t k = 0; k < e.facets.size(); ++k) {
-    const Facet& facet = e.facets[k];
-    const Arrangement& a = facet.arrangement;
-    for (const int cell : facet.cells) {
-      if (cell < 0 || !certified(claims.cell(cell))) continue;
-      for (std::size_t i = 0; i < a.edges.size(); ++i)
-        if (a.edges[i].curve >= 0)
-          edges = edges && loops[{cell, static_cast<int>(first_edge[k] + i)}] == 1;
-      for (std::size_t v = 0; v < a.vertices.size(); ++v)
-        if (a.vertices[v].kind == Arrangement::Vertex::Kind::Crossing)
-          crossings = crossings && ends[{cell, facet.points[v]}] == 1;
-    }
-  }
-  for (std::size_t t = 0; t < e.triple_points.size(); ++t)
-    triples = triples && arcs_through[t] == (e.triple_points[t].cell >= 0 ? 3 : 0);
-  claims.require(edges,
-                 "An edge of a surface on a facet is not in one loop of each cell beside it.");
-  claims.require(crossings,
-                 "A crossing on a facet is not the end of one arc of each cell beside it.");
-  claims.require(triples, "A triple point is not on three arcs of its cell.");
-}
-
-}  // namespace
-
 void check_space_cells(SpaceClaims& claims) {
   const SurfaceEncasement& e = claims.result;
   std::vector<const Facet*> facets;
@@ -315,7 +267,6 @@ void check_space_cells(SpaceClaims& claims) {
                            directions};
   CellChecker checker(claims, scene);
   for (std::size_t k = 0; k < e.cells.size() && !claims.full(); ++k) checker.check(k);
-  if (claims.report.ok()) check_gluing(claims);
 }
 
 }  // namespace encase::verification

@@ -69,4 +69,10 @@ bool check_facets(SpaceClaims& claims);
 /// are what is read from its facets.
 void check_space_cells(SpaceClaims& claims);
 
+/// What holds of the patches and arcs of all cells however they are read: every edge of a surface
+/// on a facet is in one loop of each cell beside it, every crossing on it is the end of one arc
+/// there, and every triple point is on three arcs; loops are closed, arcs end on those of their
+/// patches, and on a disc two arcs cross as often, by parity, as their ends on its rim say.
+void check_space_gluing(SpaceClaims& claims);
+
 }  // namespace encase::verification

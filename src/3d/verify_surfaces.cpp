@@ -243,6 +243,7 @@ Verification verify(const SurfaceEncasement& encasement, const VerifyOptions& op
 
   // The planes, and what follows from them for the cells.
   if (check_facets(claims)) check_space_cells(claims);
+  if (claims.report.ok()) check_space_gluing(claims);
   return claims.report;
 }
 
