@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "2d/locate.hpp"
-#include "common/wording.hpp"
 #include "common/parallel.hpp"
+#include "common/wording.hpp"
 
 namespace encase {
 namespace {

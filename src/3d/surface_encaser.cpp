@@ -11,9 +11,9 @@
 #include "3d/pair_critical_points.hpp"
 #include "3d/solid_region.hpp"
 #include "3d/solid_sides.hpp"
-#include "common/wording.hpp"
 #include "common/isolate_roots.hpp"
 #include "common/parallel.hpp"
+#include "common/wording.hpp"
 
 namespace encase {
 
