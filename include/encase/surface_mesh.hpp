@@ -23,7 +23,7 @@ struct SurfaceMesh {
   /// Infinite: nothing is proved.
   std::vector<double> distances;
   /// Proved: the angle between the triangle's normal and the surface's gradient is at no point over
-  /// the triangle, up to `tolerance` from it, larger, in radians. Infinite: nothing is proved.
+  /// the triangle, up to its distance from it, larger, in radians. Infinite: nothing is proved.
   std::vector<double> angles;
 
   double tolerance = 0;  ///< as asked

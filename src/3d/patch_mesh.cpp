@@ -20,6 +20,12 @@ double cotangent(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   return dot(p, q) / length(cross(p, q));
 }
 
+bool is_flat(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  constexpr double kFlat = 0.001;
+  const Point<3> p = b - a, q = c - a, r = c - b;
+  return length(cross(p, q)) < kFlat * std::max({dot(p, p), dot(q, q), dot(r, r)});
+}
+
 }  // namespace
 
 int PatchMesh::add(int id) {
@@ -215,8 +221,9 @@ void PatchMesh::flip(int t, int edge) {
   replace_neighbour(beyond_bc, t, u);
 }
 
-/// Flips edges whose opposite angles in the chart add up to more than pi; for certain only a
-/// bounded number of times.
+/// Flips edges whose opposite angles in space add up to more than pi: then those of the other
+/// diagonal do not, as no four angles of a quadrangle in space add up to more than 2 pi. For
+/// certain only a bounded number of times.
 void PatchMesh::make_delaunay(std::vector<int> work, std::vector<int>* changed) {
   std::size_t left = 4096 + 64 * work.size();
   while (!work.empty() && left > 0) {
@@ -236,10 +243,11 @@ void PatchMesh::make_delaunay(std::vector<int> work, std::vector<int>* changed) 
 
 /// At the middle of the longest edge, unless that is one of the boundary.
 void PatchMesh::divide(int t, std::vector<int>* changed) {
+  const std::array<int, 3>& corners = triangles_[t].corners;
   int longest = 0;
   double most = 0;
   for (int i = 0; i < 3; ++i) {
-    const double l = length(at(triangles_[t].corners[(i + 1) % 3]) - at(triangles_[t].corners[i]));
+    const double l = length(at(corners[(i + 1) % 3]) - at(corners[i]));
     if (l > most) {
       most = l;
       longest = i;
@@ -248,17 +256,13 @@ void PatchMesh::divide(int t, std::vector<int>* changed) {
   triangles_[t].given_up = true;
   if (most < goal_.least_length) return;
   // Flat triangles beget flat ones: what is around them must be divided, or the boundary.
-  constexpr double kFlat = 0.001;
-  const Point<3>& first = at(triangles_[t].corners[0]);
-  const Point<3> doubled_area =
-      cross(at(triangles_[t].corners[1]) - first, at(triangles_[t].corners[2]) - first);
-  if (triangles_[t].neighbours[longest] >= 0 && length(doubled_area) < kFlat * most * most) return;
-  if (triangles_[t].neighbours[longest] < 0) {
-    too_long_.emplace_back(ids_[triangles_[t].corners[longest]],
-                           ids_[triangles_[t].corners[(longest + 1) % 3]]);
-    return;
-  }
-  split(t, longest, changed);
+  const auto [a, b, c] = corners;
+  const bool flat = is_flat(at(a), at(b), at(c));
+  const bool flat_in_chart = is_flat(coordinates_[a], coordinates_[b], coordinates_[c]);
+  for (int i = 0; i < 3; ++i)
+    if (triangles_[t].neighbours[i] < 0 && (i == longest || flat_in_chart))
+      too_long_.emplace_back(ids_[corners[i]], ids_[corners[(i + 1) % 3]]);
+  if (triangles_[t].neighbours[longest] >= 0 && !flat && !flat_in_chart) split(t, longest, changed);
 }
 
 /// The triangle a b c on an edge a b of the boundary becomes a m c and m b c.

@@ -14,7 +14,7 @@ constexpr double kUp = 1 + 0x1p-40;
 
 /// What is known of f over a triangle, as far from it as `way`.
 struct Surroundings {
-  Surroundings(SurfaceModels& f, const Corners& corners, double reach);
+  Surroundings(SurfaceModels& f, const Corners& corners, double furthest);
   /// The second derivative in two directions.
   Interval along(const IntervalVector& a, const IntervalVector& b) const {
     Interval sum(0);
@@ -34,7 +34,7 @@ struct Surroundings {
   double size = 0;                      ///< bounds |f| on the triangle
 };
 
-Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double reach) {
+Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double furthest) {
   const auto& [p, q, r] = corners.points;
   const Point<3> area = cross(q - p, r - p), normal = unit(area);
   if (!(length(normal) > 0.5)) return;
@@ -47,7 +47,7 @@ Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double reac
   v = exactly(basis[1]);
   n = exactly(normal);
 
-  way = std::min(reach, longest) * kUp;
+  way = std::min(furthest, longest) * kUp;
   const Box<3> box = inflated(hull(hull(Box<3>{p, p}, {q, q}), {r, r}), way);
   const SurfaceModel& model = f.around(box);
   bends = model.second(box);
@@ -75,12 +75,9 @@ Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double reac
   known = std::isfinite(sum + size);
 }
 
-}  // namespace
-
-TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach) {
+/// What is proved if the surface is looked for as far as `s` reaches.
+TriangleBounds bound_within(const Surroundings& s) {
   TriangleBounds result;
-  const Surroundings s(f, corners, reach);
-  if (!s.known) return result;
   double up = std::numeric_limits<double>::infinity(), along = 0, largest = 0;
   for (const IntervalVector& slope : s.slopes) {
     const Interval rise = dot(slope, s.n);
@@ -94,8 +91,25 @@ TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double r
   if (!(mu > 0)) return result;
   result.angle = std::atan((along + s.tilt * largest) / mu) * kUp;
   const double distance = s.size / mu * kUp;
-  if (distance <= std::min(reach, s.longest)) result.distance = distance;
+  if (distance <= s.way) result.distance = distance;
   return result;
+}
+
+}  // namespace
+
+/// On triangles that turn little against the surface it is nearer than a small part of their sides,
+/// and what is far away would only blur the bounds.
+TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach) {
+  const auto& [p, q, r] = corners.points;
+  constexpr double kNear = 1.0 / 16;
+  const double near = kNear * std::max({length(q - p), length(r - q), length(p - r)});
+  for (const double way : {std::min(near, reach), reach}) {
+    const Surroundings s(f, corners, way);
+    if (!s.known) continue;
+    const TriangleBounds result = bound_within(s);
+    if (std::isfinite(result.distance) || way >= reach) return result;
+  }
+  return {};
 }
 
 /// In the directions W, grad f . W is up to `between` a quadratic form in the barycentric
@@ -119,7 +133,7 @@ double bound_along(SurfaceModels& f, const Corners& corners,
   change = (change + 3 * 0x1p-40 * s.bend) * s.way + s.bend * moved;
   const double mu = up - (s.between + change + 0x1p-40 * steepest) * kUp;
   const double distance = (s.size + moved * steepest) / mu * kUp + moved;
-  const bool proved = s.known && mu > 0 && distance + 2 * moved <= std::min(reach, s.longest);
+  const bool proved = s.known && mu > 0 && distance + 2 * moved <= s.way;
   return proved ? distance : std::numeric_limits<double>::infinity();
 }
 

@@ -14,7 +14,7 @@ struct TriangleBounds {
   /// No point of the triangle is farther than this from the surface; infinite: nothing is proved.
   double distance = std::numeric_limits<double>::infinity();
   /// The triangle's normal and the gradient include no larger angle, over the triangle and as far
-  /// from it as the surface is looked for.
+  /// from it as the distance.
   double angle = std::numeric_limits<double>::infinity();
 };
 
