@@ -11,6 +11,7 @@ namespace encase {
 namespace {
 
 constexpr double kUp = 1 + 0x1p-40;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What is known of f over a triangle, as far from it as `way`.
 struct Surroundings {
@@ -78,7 +79,7 @@ Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double furt
 /// What is proved if the surface is looked for as far as `s` reaches.
 TriangleBounds bound_within(const Surroundings& s) {
   TriangleBounds result;
-  double up = std::numeric_limits<double>::infinity(), along = 0, largest = 0;
+  double up = kInfinity, along = 0, largest = 0;
   for (const IntervalVector& slope : s.slopes) {
     const Interval rise = dot(slope, s.n);
     up = std::min(up, rise.lo);
@@ -95,30 +96,12 @@ TriangleBounds bound_within(const Surroundings& s) {
   return result;
 }
 
-}  // namespace
-
-/// On triangles that turn little against the surface it is nearer than a small part of their sides,
-/// and what is far away would only blur the bounds.
-TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach) {
-  const auto& [p, q, r] = corners.points;
-  constexpr double kNear = 1.0 / 16;
-  const double near = kNear * std::max({length(q - p), length(r - q), length(p - r)});
-  for (const double way : {std::min(near, reach), reach}) {
-    const Surroundings s(f, corners, way);
-    if (!s.known) continue;
-    const TriangleBounds result = bound_within(s);
-    if (std::isfinite(result.distance) || way >= reach) return result;
-  }
-  return {};
-}
-
 /// In the directions W, grad f . W is up to `between` a quadratic form in the barycentric
 /// coordinates of a point of the triangle, at least the least of its Bernstein coefficients; on the
 /// way it changes by second derivatives W . H W.
-double bound_along(SurfaceModels& f, const Corners& corners,
-                   const std::array<Point<3>, 3>& directions, double reach, double moved) {
-  const Surroundings s(f, corners, reach);
-  double up = std::numeric_limits<double>::infinity(), steepest = 0, change = 0;
+double bound_along_within(const Surroundings& s, const std::array<Point<3>, 3>& directions,
+                          double moved) {
+  double up = kInfinity, steepest = 0, change = 0;
   for (int i = 0; i < 3; ++i) {
     const IntervalVector w = exactly(directions[i]);
     steepest = std::max(steepest, magnitude(s.slopes[i][0]) + magnitude(s.slopes[i][1]) +
@@ -133,8 +116,37 @@ double bound_along(SurfaceModels& f, const Corners& corners,
   change = (change + 3 * 0x1p-40 * s.bend) * s.way + s.bend * moved;
   const double mu = up - (s.between + change + 0x1p-40 * steepest) * kUp;
   const double distance = (s.size + moved * steepest) / mu * kUp + moved;
-  const bool proved = s.known && mu > 0 && distance + 2 * moved <= s.way;
-  return proved ? distance : std::numeric_limits<double>::infinity();
+  return mu > 0 && distance + 2 * moved <= s.way ? distance : kInfinity;
+}
+
+/// How far to look for the surface: on triangles that turn little against it it is nearer than a
+/// small part of their sides, and what is far away would only blur the bounds.
+std::array<double, 2> ways(const Corners& corners, double reach) {
+  const auto& [p, q, r] = corners.points;
+  constexpr double kNear = 1.0 / 16;
+  return {std::min(kNear * std::max({length(q - p), length(r - q), length(p - r)}), reach), reach};
+}
+
+}  // namespace
+
+TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach) {
+  TriangleBounds result;
+  for (const double way : ways(corners, reach)) {
+    const Surroundings s(f, corners, way);
+    if (s.known) result = bound_within(s);
+    if (std::isfinite(result.distance)) break;
+  }
+  return result;
+}
+
+double bound_along(SurfaceModels& f, const Corners& corners,
+                   const std::array<Point<3>, 3>& directions, double reach, double moved) {
+  for (const double way : ways(corners, reach)) {
+    const Surroundings s(f, corners, way);
+    const double distance = s.known ? bound_along_within(s, directions, moved) : kInfinity;
+    if (std::isfinite(distance)) return distance;
+  }
+  return kInfinity;
 }
 
 }  // namespace encase
