@@ -20,10 +20,11 @@ double cotangent(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   return dot(p, q) / length(cross(p, q));
 }
 
+/// Whether one corner lies nearly on the edge between the others.
 bool is_flat(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   constexpr double kFlat = 0.001;
-  const Point<3> p = b - a, q = c - a, r = c - b;
-  return length(cross(p, q)) < kFlat * std::max({dot(p, p), dot(q, q), dot(r, r)});
+  const double p = length(b - a), q = length(c - a), r = length(c - b);
+  return length(cross(b - a, c - a)) < kFlat * std::min({p * q, q * r, r * p});
 }
 
 }  // namespace
@@ -31,13 +32,8 @@ bool is_flat(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
 int PatchMesh::add(int id) {
   ids_.push_back(id);
   coordinates_.push_back(chart_.coordinates(points_[id]));
-  sizes_.push_back(size_at(surface_, points_[id]));
+  corners_.push_back(corner_maker_.corner(points_[id], lines_.sides(id)));
   return static_cast<int>(ids_.size()) - 1;
-}
-
-Corners PatchMesh::corners_of(const Triangle& triangle) const {
-  const auto& [a, b, c] = triangle.corners;
-  return {{at(a), at(b), at(c)}, {sizes_[a], sizes_[b], sizes_[c]}};
 }
 
 void PatchMesh::join_neighbours() {
@@ -119,7 +115,7 @@ bool PatchMesh::lift(const FieldChart::Line& line, double guess, Point<3>* point
   if (!graph_.box.contains(*point)) return false;
   // f is negative before and positive behind a root, proved; nearer ones than this are not told
   // apart from where rounding takes the point.
-  for (double by = 0x1p-20 * goal_.least_length; by <= goal_.least_length; by *= 32) {
+  for (double by = 0x1p-10 * goal_.least_length; by <= 0x1p10 * goal_.least_length; by *= 32) {
     const Interval before = surface_.value(*point - by * line.along, Kernel::kDoubleBits);
     const Interval behind = surface_.value(*point + by * line.along, Kernel::kDoubleBits);
     if (before.hi < 0 && behind.lo > 0) return true;
@@ -173,7 +169,7 @@ bool PatchMesh::split(int t, int edge, std::vector<int>* changed) {
     points_.pop_back();
     ids_.pop_back();
     coordinates_.pop_back();
-    sizes_.pop_back();
+    corners_.pop_back();
     return false;
   }
   const int beyond_bc = triangles_[t].neighbours[(edge + 1) % 3];
@@ -314,12 +310,15 @@ void PatchMesh::refine(int most) {
     work.push_back(static_cast<int>(t));
   }
   const auto good = [&](const TriangleBounds& bounds) {
-    return bounds.distance <= goal_.tolerance && bounds.angle <= goal_.angle;
+    return bounds.distance <= goal_.tolerance && bounds.angle <= goal_.angle &&
+           bounds.way <= goal_.tolerance;
   };
   for (std::size_t next = 0; next < work.size(); ++next) {
     Triangle& t = triangles_[work[next]];
     if (t.given_up || good(t.bounds)) continue;
-    t.bounds = bound_triangle(models_, corners_of(t), goal_.tolerance);
+    const auto& [a, b, c] = t.corners;
+    t.bounds = bound_triangle(models_, {corners_[a], corners_[b], corners_[c]}, goal_.tolerance,
+                              corner_maker_.moved());
     if (good(t.bounds)) continue;
     if (static_cast<int>(triangles_.size()) >= most) break;
     std::vector<int> changed;
