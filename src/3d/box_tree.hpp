@@ -54,11 +54,10 @@ class BoxTree {
     for (int i = 1; i < 3; ++i)
       if (hi[i] - lo[i] > hi[axis] - lo[axis]) axis = i;
     const int middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](int a, int b) {
-                       return boxes_[a].lo[axis] + boxes_[a].hi[axis] <
-                              boxes_[b].lo[axis] + boxes_[b].hi[axis];
-                     });
+    std::nth_element(
+        order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {
+          return boxes_[a].lo[axis] + boxes_[a].hi[axis] < boxes_[b].lo[axis] + boxes_[b].hi[axis];
+        });
     add_node(begin, middle);
     const int second = add_node(middle, end);
     nodes_[k].second = second;
@@ -88,7 +87,8 @@ class BoxTree {
       return;
     }
     const bool halve_first =
-        second.second < 0 || (first.second >= 0 && first.end - first.begin > second.end - second.begin);
+        second.second < 0 ||
+        (first.second >= 0 && first.end - first.begin > second.end - second.begin);
     if (halve_first) {
       between(a + 1, b, use);
       between(first.second, b, use);

@@ -73,8 +73,8 @@ std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
   double way = 0;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const auto& [p, q, r] = mesh.triangles[k];
-    const TriangleBounds proved = bound_triangle(models, {corners[p], corners[q], corners[r]},
-                                                 mesh.tolerance, maker.moved());
+    const TriangleBounds proved =
+        bound_triangle(models, {corners[p], corners[q], corners[r]}, mesh.tolerance, maker.moved());
     way = std::max(way, proved.way);
     if (!(proved.distance <= mesh.distances[k]))
       return "the distance of " + triangle_name(k) + " is not proved";
@@ -83,7 +83,7 @@ std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
     if (mesh.distances[k] > mesh.distance || mesh.angles[k] > mesh.angle)
       return triangle_name(k) + " is farther away or steeper than the mesh says";
   }
-  const bool covered = sides && covers_surface(mesh, e, maker, corners, *sides, way);
+  const bool covered = sides && covers_surface(mesh, e, maker, corners, way);
   if (std::isfinite(mesh.distance_to_mesh) && !(covered && way <= mesh.distance_to_mesh))
     return "the surface's distance from the mesh is not proved";
   if (mesh.isotopic && !(covered && is_embedded(mesh, maker)))

@@ -52,7 +52,7 @@ class FacetLines {
   const SurfaceEncasement& encasement_;
   const std::vector<FilteredFunction<3>>& functions_;
   std::vector<Point<3>>& points_;
-  std::vector<int> facet_points_;  ///< their places in `points`
+  std::vector<int> facet_points_;    ///< their places in `points`
   std::map<int, PointSides> sides_;  ///< of points in some
   std::vector<Line> lines_;
   std::map<std::pair<int, int>, int> number_;      ///< by facet and edge

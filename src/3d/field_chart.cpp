@@ -56,7 +56,7 @@ Point<3> nearest_to_lines(const std::vector<Point<3>>& points,
   std::array<Point<3>, 3> rows{};
   Point<3> right{};
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Point<3> &p = points[k] - points[0], &n = normals[k];
+    const Point<3>&p = points[k] - points[0], &n = normals[k];
     for (int i = 0; i < 3; ++i) {
       Point<3> row = -n[i] * n;
       row[i] += 1;
@@ -95,7 +95,8 @@ FieldChart::FieldChart(const GraphCertificate& graph, const std::vector<Point<3>
   if (least_cosine(normals, [&](std::size_t) { return w_; }) > kLeastCosine && is_simple(boundary))
     return;
   const auto cosine_from = [&](const Point<3>& centre, double outward) {
-    return least_cosine(normals, [&](std::size_t k) { return outward * unit(boundary[k] - centre); });
+    return least_cosine(normals,
+                        [&](std::size_t k) { return outward * unit(boundary[k] - centre); });
   };
   const bool parallel = graph.spread == 0;
   const Point<3> direction = unit(graph.direction);

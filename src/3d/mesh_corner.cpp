@@ -32,6 +32,7 @@ Corner MeshCorners::corner(const Point<3>& at, const PointSides& sides) const {
   constexpr double kLeastSine = 0.125;
   Corner corner;
   corner.at = at;
+  corner.sides = sides;
   corner.size = magnitude(surface_.value(at, Kernel::kDoubleBits));
   Point<3> w = surface_.function().gradient(at);
   if (sides[0] >= 0) {
@@ -48,9 +49,9 @@ Corner MeshCorners::corner(const Point<3>& at, const PointSides& sides) const {
   for (int k = 0; k < side_count(); ++k) {
     if (k == sides[0] || k == sides[1]) continue;
     const double depth = -beyond(k, at) - moved();
-    corner.room = std::min(corner.room, std::max(depth, 0.0) /
-                                            (std::fabs(dot(sides_[k].normal, corner.direction)) +
-                                             0x1p-40));
+    corner.room =
+        std::min(corner.room, std::max(depth, 0.0) /
+                                  (std::fabs(dot(sides_[k].normal, corner.direction)) + 0x1p-40));
   }
   return corner;
 }

@@ -13,9 +13,17 @@ namespace encase {
 using PointSides = std::array<int, 2>;
 inline constexpr PointSides kWithin{-1, -1};
 
+/// A side in which both points lie; -1: none.
+inline int common_side(const PointSides& a, const PointSides& b) {
+  for (const int side : a)
+    if (side >= 0 && (side == b[0] || side == b[1])) return side;
+  return -1;
+}
+
 /// What proofs about a mesh use of a point of it.
 struct Corner {
   Point<3> at{};
+  PointSides sides = kWithin;
   double size = 0;  ///< at least |f|
   /// The unit gradient there, up to rounding, within the sides that the point lies in; zero where
   /// these are nearly parallel.

@@ -15,28 +15,24 @@ namespace encase {
 
 namespace {
 
-using Edges = std::vector<std::pair<int, int>>;
-
 double determinant(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   return dot(cross(a, b), c);
 }
 
-/// The edges with one triangle, as it runs along them.
-Edges boundary_of(const SurfaceMesh& mesh) {
-  std::set<std::pair<int, int>> half_edges;
+using HalfEdges = std::set<std::pair<int, int>>;
+
+HalfEdges half_edges_of(const SurfaceMesh& mesh) {
+  HalfEdges all;
   for (const auto& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i) half_edges.emplace(t[i], t[(i + 1) % 3]);
-  Edges boundary;
-  for (const auto& [a, b] : half_edges)
-    if (!half_edges.contains({b, a})) boundary.emplace_back(a, b);
-  return boundary;
+    for (int i = 0; i < 3; ++i) all.emplace(t[i], t[(i + 1) % 3]);
+  return all;
 }
 
 class Cover {
  public:
   Cover(const SurfaceMesh& mesh, const SurfaceEncasement& encasement, const MeshCorners& maker,
-        const std::vector<Corner>& corners, const std::vector<PointSides>& sides)
-      : mesh_(mesh), encasement_(encasement), maker_(maker), corners_(corners), sides_(sides) {}
+        const std::vector<Corner>& corners)
+      : mesh_(mesh), encasement_(encasement), maker_(maker), corners_(corners) {}
 
   bool is_complete(double way) const {
     return within_region() && ends_in_sides() && turns_once() && meets_all_components(way);
@@ -56,21 +52,25 @@ class Cover {
   }
 
   /// Whether the boundary consists of closed lines within the sides that its points are said to lie
-  /// in, and no other point is said to lie in one.
+  /// in, and nothing else lies in them.
   bool ends_in_sides() const {
+    const HalfEdges half_edges = half_edges_of(mesh_);
     std::vector<int> leaving(mesh_.points.size());
-    for (const auto& [a, b] : boundary_of(mesh_)) {
-      if (++leaving[a] > 1) return false;
-      if (std::none_of(sides_[a].begin(), sides_[a].end(), [&](int k) {
-            return k >= 0 && (k == sides_[b][0] || k == sides_[b][1]) &&
-                   std::fabs(maker_.beyond(k, mesh_.points[a])) <= maker_.near() &&
-                   std::fabs(maker_.beyond(k, mesh_.points[b])) <= maker_.near();
-          }))
+    for (const auto& [a, b] : half_edges) {
+      const int side = common_side(corners_[a].sides, corners_[b].sides);
+      const bool on_boundary = !half_edges.contains({b, a});
+      if (on_boundary != (side >= 0)) return false;
+      if (!on_boundary) continue;
+      if (++leaving[a] > 1 || !is_in(side, mesh_.points[a]) || !is_in(side, mesh_.points[b]))
         return false;
     }
-    for (std::size_t k = 0; k < sides_.size(); ++k)
-      if ((sides_[k][0] >= 0) != (leaving[k] == 1)) return false;
+    for (std::size_t k = 0; k < corners_.size(); ++k)
+      if ((corners_[k].sides[0] >= 0) != (leaving[k] == 1)) return false;
     return true;
+  }
+
+  bool is_in(int side, const Point<3>& point) const {
+    return std::fabs(maker_.beyond(side, point)) <= maker_.near();
   }
 
   /// Whether the triangles around every point go around its direction once.
@@ -111,23 +111,22 @@ class Cover {
   bool has_witness(int component, UnionFind& joined, double distance) const {
     constexpr int kMostTried = 64;
     const double apart = 1.01 * distance + maker_.moved();
-    std::vector<int> deep;
-    for (int k = 0; k < static_cast<int>(mesh_.points.size()); ++k)
-      if (joined.find(k) == component &&
-          is_deep(mesh_.points[k], apart))
-        deep.push_back(k);
+    std::vector<Point<3>> deep;  // in the middles of triangles
+    for (const auto& [p, q, r] : mesh_.triangles) {
+      if (joined.find(p) != component) continue;
+      const Point<3> middle = (1.0 / 3) * (mesh_.points[p] + mesh_.points[q] + mesh_.points[r]);
+      if (is_deep(middle, apart)) deep.push_back(middle);
+    }
     const std::size_t step = deep.size() / kMostTried + 1;
     for (std::size_t k = 0; k < deep.size(); k += step)
-      if (far_from_others(deep[k], joined, 2 * apart)) return true;
+      if (far_from_others(deep[k], component, joined, 2 * apart)) return true;
     return false;
   }
 
-  bool far_from_others(int point, UnionFind& joined, double distance) const {
-    const Point<3>& p = mesh_.points[point];
-    const int own = joined.find(point);
+  bool far_from_others(const Point<3>& p, int component, UnionFind& joined, double distance) const {
     return std::all_of(
         mesh_.triangles.begin(), mesh_.triangles.end(), [&](const std::array<int, 3>& t) {
-          if (joined.find(t[0]) == own) return true;
+          if (joined.find(t[0]) == component) return true;
           Point<3> gap{};
           for (int i = 0; i < 3; ++i) {
             const auto [lo, hi] =
@@ -142,7 +141,6 @@ class Cover {
   const SurfaceEncasement& encasement_;
   const MeshCorners& maker_;
   const std::vector<Corner>& corners_;
-  const std::vector<PointSides>& sides_;
 };
 
 }  // namespace
@@ -150,7 +148,9 @@ class Cover {
 std::optional<std::vector<PointSides>> sides_of_points(const SurfaceMesh& mesh,
                                                        const MeshCorners& corners) {
   std::vector<std::set<int>> found(mesh.points.size());
-  for (const auto& [a, b] : boundary_of(mesh)) {
+  const HalfEdges half_edges = half_edges_of(mesh);
+  for (const auto& [a, b] : half_edges) {
+    if (half_edges.contains({b, a})) continue;
     bool any = false;
     for (int k = 0; k < corners.side_count(); ++k) {
       if (std::fabs(corners.beyond(k, mesh.points[a])) > corners.near() ||
@@ -171,10 +171,9 @@ std::optional<std::vector<PointSides>> sides_of_points(const SurfaceMesh& mesh,
 }
 
 bool covers_surface(const SurfaceMesh& mesh, const SurfaceEncasement& encasement,
-                    const MeshCorners& maker, const std::vector<Corner>& corners,
-                    const std::vector<PointSides>& sides, double way) {
+                    const MeshCorners& maker, const std::vector<Corner>& corners, double way) {
   return mesh.complete && std::isfinite(way) &&
-         Cover(mesh, encasement, maker, corners, sides).is_complete(way);
+         Cover(mesh, encasement, maker, corners).is_complete(way);
 }
 
 bool is_embedded(const SurfaceMesh& mesh, const MeshCorners& maker) {

@@ -19,8 +19,7 @@ std::optional<std::vector<PointSides>> sides_of_points(const SurfaceMesh& mesh,
 /// (TriangleBounds), is proved to come as near as that to all points of its surface in the region
 /// used. docs/meshes.md has the argument.
 bool covers_surface(const SurfaceMesh& mesh, const SurfaceEncasement& encasement,
-                    const MeshCorners& maker, const std::vector<Corner>& corners,
-                    const std::vector<PointSides>& sides, double way);
+                    const MeshCorners& maker, const std::vector<Corner>& corners, double way);
 
 /// Whether such a mesh is also proved to be isotopic to the surface: no two triangles meet but in
 /// common corners and edges.

@@ -237,7 +237,16 @@ void PatchMesh::make_delaunay(std::vector<int> work, std::vector<int>* changed) 
   }
 }
 
-/// At the middle of the longest edge, unless that is one of the boundary.
+/// An edge within that lies in a side of the region; -1: none.
+int PatchMesh::chord_of(const Triangle& t) const {
+  for (int i = 0; i < 3; ++i)
+    if (t.neighbours[i] >= 0 &&
+        common_side(corners_[t.corners[i]].sides, corners_[t.corners[(i + 1) % 3]].sides) >= 0)
+      return i;
+  return -1;
+}
+
+/// At the middle of the longest edge, unless that is one of the boundary; of a chord, if it has one.
 void PatchMesh::divide(int t, std::vector<int>* changed) {
   const std::array<int, 3>& corners = triangles_[t].corners;
   int longest = 0;
@@ -251,6 +260,10 @@ void PatchMesh::divide(int t, std::vector<int>* changed) {
   }
   triangles_[t].given_up = true;
   if (most < goal_.least_length) return;
+  if (const int chord = chord_of(triangles_[t]); chord >= 0) {
+    split(t, chord, changed);
+    return;
+  }
   // Flat triangles beget flat ones: what is around them must be divided, or the boundary.
   const auto [a, b, c] = corners;
   const bool flat = is_flat(at(a), at(b), at(c));
@@ -309,17 +322,17 @@ void PatchMesh::refine(int most) {
     triangles_[t].given_up = false;
     work.push_back(static_cast<int>(t));
   }
-  const auto good = [&](const TriangleBounds& bounds) {
-    return bounds.distance <= goal_.tolerance && bounds.angle <= goal_.angle &&
-           bounds.way <= goal_.tolerance;
+  const auto good = [&](const Triangle& t) {
+    return t.bounds.distance <= goal_.tolerance && t.bounds.angle <= goal_.angle &&
+           t.bounds.way <= goal_.tolerance && chord_of(t) < 0;
   };
   for (std::size_t next = 0; next < work.size(); ++next) {
     Triangle& t = triangles_[work[next]];
-    if (t.given_up || good(t.bounds)) continue;
+    if (t.given_up || good(t)) continue;
     const auto& [a, b, c] = t.corners;
     t.bounds = bound_triangle(models_, {corners_[a], corners_[b], corners_[c]}, goal_.tolerance,
                               corner_maker_.moved());
-    if (good(t.bounds)) continue;
+    if (good(t)) continue;
     if (static_cast<int>(triangles_.size()) >= most) break;
     std::vector<int> changed;
     divide(work[next], &changed);

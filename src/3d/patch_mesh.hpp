@@ -68,6 +68,7 @@ class PatchMesh {
     return chart_.positive(coordinates_[a], coordinates_[b], coordinates_[c]);
   }
   void join_neighbours();
+  int chord_of(const Triangle& triangle) const;
   bool lift(const FieldChart::Line& line, double guess, Point<3>* point) const;
   bool crowds_boundary(const Point<3>& point);
   void divide(int triangle, std::vector<int>* changed);

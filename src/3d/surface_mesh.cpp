@@ -123,8 +123,8 @@ class Mesher {
     const FieldChart chart =
         boundary.empty() ? FieldChart(*patch->graph) : FieldChart(*patch->graph, corners, normals);
     const int s = patch->patch->surface;
-    patch->mesh = std::make_unique<PatchMesh>(chart, *patch->graph, models_[s], corners_[s], *lines_,
-                                              goal_, &points_);
+    patch->mesh = std::make_unique<PatchMesh>(chart, *patch->graph, models_[s], corners_[s],
+                                              *lines_, goal_, &points_);
     patch->failed = !(boundary.empty() ? patch->mesh->surround(encasement_.cells[patch->cell].box)
                                        : patch->mesh->fill(boundary));
   }
@@ -159,7 +159,6 @@ class Mesher {
     std::map<int, int> number;
     std::set<std::pair<int, int>> edges;
     std::vector<Corner> corners;
-    std::vector<PointSides> sides;
     double way = 0;
     for (const Patch& patch : patches_) {
       if (patch.patch->surface != surface) continue;
@@ -174,7 +173,6 @@ class Mesher {
             mesh.points.push_back(points_[p]);
             mesh.normals.push_back(unit(functions_[surface].gradient(points_[p])));
             corners.push_back(patch.mesh->corner(t.corners[i]));
-            sides.push_back(lines_->sides(p));
           }
           triangle[i] = place->second;
         }
@@ -191,7 +189,7 @@ class Mesher {
     mesh.euler = static_cast<int>(mesh.points.size()) - static_cast<int>(edges.size()) +
                  static_cast<int>(mesh.triangles.size());
     mesh.within_tolerance = mesh.distance <= options_.tolerance && mesh.angle <= options_.angle;
-    if (covers_surface(mesh, encasement_, corners_[surface], corners, sides, way)) {
+    if (covers_surface(mesh, encasement_, corners_[surface], corners, way)) {
       mesh.distance_to_mesh = way;
       mesh.isotopic = is_embedded(mesh, corners_[surface]);
     }
