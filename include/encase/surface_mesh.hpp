@@ -23,7 +23,7 @@ struct SurfaceMesh {
   /// Infinite: nothing is proved.
   std::vector<double> distances;
   /// Proved: the angle between the triangle's normal and the surface's gradient is at no point over
-  /// the triangle, up to `tolerance` from it, larger, in radians. Infinite: nothing is proved.
+  /// the triangle, up to its distance from it, larger, in radians. Infinite: nothing is proved.
   std::vector<double> angles;
 
   double tolerance = 0;  ///< as asked
@@ -32,6 +32,9 @@ struct SurfaceMesh {
   /// Proved: no point of the surface in the region used is farther than this from the mesh, in
   /// input units. Infinite: nothing is proved.
   double distance_to_mesh = std::numeric_limits<double>::infinity();
+  /// Proved: an isotopy of the region used, along which its sides stay as they are and no point of
+  /// the mesh goes farther than `distance_to_mesh`, takes the mesh to the surface in it.
+  bool isotopic = false;
   int euler = 0;                 ///< points - edges + triangles
   bool within_tolerance = true;  ///< distances and angles are at most what was asked
   /// Every cell that may meet the surface is certified and has its patches here.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -64,13 +65,17 @@ std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
   const SurfaceBounds bounds(function, e.region_used.bounding_box().largest_width());
   Kernel kernel;
   SurfaceModels models(bounds, kernel);
-  std::vector<double> sizes;
-  for (const Point<3>& point : mesh.points) sizes.push_back(size_at(bounds, point));
+  const MeshCorners maker(e, bounds);
+  const auto sides = sides_of_points(mesh, maker);
+  std::vector<Corner> corners;
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    corners.push_back(maker.corner(mesh.points[k], sides ? (*sides)[k] : kWithin));
+  double way = 0;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const auto& [p, q, r] = mesh.triangles[k];
-    const TriangleBounds proved = bound_triangle(
-        models, {{mesh.points[p], mesh.points[q], mesh.points[r]}, {sizes[p], sizes[q], sizes[r]}},
-        mesh.tolerance);
+    const TriangleBounds proved =
+        bound_triangle(models, {corners[p], corners[q], corners[r]}, mesh.tolerance, maker.moved());
+    way = std::max(way, proved.way);
     if (!(proved.distance <= mesh.distances[k]))
       return "the distance of " + triangle_name(k) + " is not proved";
     if (!(proved.angle <= mesh.angles[k]))
@@ -78,9 +83,11 @@ std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
     if (mesh.distances[k] > mesh.distance || mesh.angles[k] > mesh.angle)
       return triangle_name(k) + " is farther away or steeper than the mesh says";
   }
-  if (std::isfinite(mesh.distance_to_mesh) &&
-      !(cover_distance(mesh, e, models) <= mesh.distance_to_mesh))
+  const bool covered = sides && covers_surface(mesh, e, maker, corners, way);
+  if (std::isfinite(mesh.distance_to_mesh) && !(covered && way <= mesh.distance_to_mesh))
     return "the surface's distance from the mesh is not proved";
+  if (mesh.isotopic && !(covered && is_embedded(mesh, maker)))
+    return "that mesh and surface are isotopic is not proved";
   return "";
 }
 

@@ -22,6 +22,7 @@ FacetLines::FacetLines(const SurfaceEncasement& encasement,
   for (const FacetPoint& p : encasement.facet_points) {
     facet_points_.push_back(static_cast<int>(points_.size()));
     points_.push_back(p.point);
+    for (const int plane : p.planes) add_to_side(plane, facet_points_.back());
   }
   TraceOptions options;
   options.tolerance = tolerance;
@@ -63,7 +64,9 @@ void FacetLines::add_line(int facet, int edge, const std::vector<Point<2>>& poly
   line.surface = of.surfaces[of.arrangement.edges[edge].curve];
   const auto add = [&](const Point<2>& p) {
     points_.push_back(chart.lift(p));
-    return static_cast<int>(points_.size()) - 1;
+    const int place = static_cast<int>(points_.size()) - 1;
+    add_to_side(of.plane, place);
+    return place;
   };
   const int first = of.arrangement.half_edges[2 * edge].origin;
   const int last = of.arrangement.half_edges[2 * edge + 1].origin;
@@ -100,7 +103,20 @@ int FacetLines::place_between(const Line& line, int from, int to) {
   // A point of another branch would be no help.
   if (!(length(point - middle) < 0.5 * length(points_[to] - points_[from]))) point = middle;
   points_.push_back(point);
-  return static_cast<int>(points_.size()) - 1;
+  const int place = static_cast<int>(points_.size()) - 1;
+  add_to_side(encasement_.facets[line.facet].plane, place);
+  return place;
+}
+
+void FacetLines::add_to_side(int plane, int point) {
+  if (plane < 0 || plane >= static_cast<int>(encasement_.region_used.sides.size())) return;
+  PointSides& sides = sides_.emplace(point, kWithin).first->second;
+  sides[sides[0] < 0 ? 0 : 1] = plane;
+}
+
+PointSides FacetLines::sides(int point) const {
+  const auto found = sides_.find(point);
+  return found == sides_.end() ? kWithin : found->second;
 }
 
 int FacetLines::line(const FacetEdge& edge) const {

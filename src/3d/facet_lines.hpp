@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "3d/mesh_corner.hpp"
 #include "common/filtered_function.hpp"
 #include "encase/surface_encasement.hpp"
 
@@ -25,6 +26,8 @@ class FacetLines {
   /// The number of an edge.
   int line(const FacetEdge& edge) const;
   int count() const { return static_cast<int>(lines_.size()); }
+  /// The sides of the region in which a point of a line lies.
+  PointSides sides(int point) const;
 
   /// Puts a point between two that follow each other; gives the line's number, or -1, and the
   /// point.
@@ -44,11 +47,13 @@ class FacetLines {
   int place_between(const Line& line, int from, int to);
   void refine(Line* line, double tolerance, double angle);
   void remember(int line);
+  void add_to_side(int plane, int point);
 
   const SurfaceEncasement& encasement_;
   const std::vector<FilteredFunction<3>>& functions_;
   std::vector<Point<3>>& points_;
-  std::vector<int> facet_points_;  ///< their places in `points`
+  std::vector<int> facet_points_;    ///< their places in `points`
+  std::map<int, PointSides> sides_;  ///< of points in some
   std::vector<Line> lines_;
   std::map<std::pair<int, int>, int> number_;      ///< by facet and edge
   std::map<std::pair<int, int>, int> of_segment_;  ///< the line, by two points, ascending

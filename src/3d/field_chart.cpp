@@ -2,6 +2,7 @@
 #include "3d/field_chart.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "3d/space_vectors.hpp"
@@ -39,6 +40,37 @@ bool crosses_itself(const std::vector<Point<3>>& polygon) {
   return false;
 }
 
+/// Of the angles that directions include with the normals.
+template <class Direction>
+double least_cosine(const std::vector<Point<3>>& normals, const Direction& direction) {
+  double least = 1;
+  for (std::size_t k = 0; k < normals.size(); ++k)
+    least = std::min(least, dot(normals[k], direction(k)));
+  return least;
+}
+
+/// The point for which the squares of its distances from the lines along normals have the least
+/// sum: sum of (1 - n n^T) (x - p) = 0. Not a number if these are parallel.
+Point<3> nearest_to_lines(const std::vector<Point<3>>& points,
+                          const std::vector<Point<3>>& normals) {
+  std::array<Point<3>, 3> rows{};
+  Point<3> right{};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Point<3>&p = points[k] - points[0], &n = normals[k];
+    for (int i = 0; i < 3; ++i) {
+      Point<3> row = -n[i] * n;
+      row[i] += 1;
+      rows[i] = rows[i] + row;
+      right[i] += dot(row, p);
+    }
+  }
+  const Point<3> columns =
+      (1 / dot(rows[0], cross(rows[1], rows[2]))) *
+      (right[0] * cross(rows[1], rows[2]) +
+       (right[1] * cross(rows[2], rows[0]) + right[2] * cross(rows[0], rows[1])));
+  return points[0] + columns;
+}
+
 /// Directions all around.
 std::vector<Point<3>> directions() {
   std::vector<Point<3>> all;
@@ -60,25 +92,55 @@ FieldChart::FieldChart(const GraphCertificate& graph, const std::vector<Point<3>
   for (const Point<3>& normal : normals) mean_normal = mean_normal + normal;
   origin_ = boundary.front();
   look_from(unit(mean_normal));
-  bool flat = true;
-  for (const Point<3>& normal : normals) flat = flat && dot(normal, w_) > kLeastCosine;
-  const std::vector<Point<3>> seen = images(boundary);
-  if (flat && doubled_area(seen) > 0 && !crosses_itself(seen)) return;
-  if (graph.spread == 0) {
-    look_from(unit(graph.direction));
+  if (least_cosine(normals, [&](std::size_t) { return w_; }) > kLeastCosine && is_simple(boundary))
     return;
+  const auto cosine_from = [&](const Point<3>& centre, double outward) {
+    return least_cosine(normals,
+                        [&](std::size_t k) { return outward * unit(boundary[k] - centre); });
+  };
+  const bool parallel = graph.spread == 0;
+  const Point<3> direction = unit(graph.direction);
+  const Point<3> centre = parallel ? Point<3>{} : centre_of(graph);
+  const double outward = graph.spread > 0 ? 1 : -1;
+  const double least = parallel ? least_cosine(normals, [&](std::size_t) { return direction; })
+                                : cosine_from(centre, outward);
+  if (least < kLeastCosine) {
+    const Point<3> focus = nearest_to_lines(boundary, normals);
+    for (const double away : {1.0, -1.0}) {
+      if (!(cosine_from(focus, away) > least)) continue;
+      look_around(focus, away, boundary);
+      if (is_simple(boundary)) return;
+    }
   }
+  if (parallel) {
+    kind_ = Kind::Parallel;
+    outward_ = 1;
+    origin_ = boundary.front();
+    look_from(direction);
+  } else {
+    look_around(centre, outward, boundary);
+  }
+}
+
+/// Whether the boundary runs counter-clockwise around the patch and does not cross itself.
+bool FieldChart::is_simple(const std::vector<Point<3>>& boundary) const {
+  const std::vector<Point<3>> seen = images(boundary);
+  return doubled_area(seen) > 0 && !crosses_itself(seen);
+}
+
+/// Along rays, stereographically. The one opposite to the middle must not be in the patch: then
+/// the boundary's image would run clockwise. The best is as far as can be from the boundary.
+void FieldChart::look_around(const Point<3>& centre, double outward,
+                             const std::vector<Point<3>>& boundary) {
   kind_ = Kind::Stereographic;
-  outward_ = graph.spread > 0 ? 1 : -1;
-  origin_ = centre_of(graph);
+  outward_ = outward;
+  origin_ = centre;
   Point<3> mean{};
   std::vector<Point<3>> rays;
   for (const Point<3>& p : boundary) {
     rays.push_back(unit(p - origin_));
     mean = mean + rays.back();
   }
-  // The one opposite to the middle must not be in the patch: then the boundary's image would run
-  // clockwise. The best is as far as can be from the boundary.
   std::vector<Point<3>> middles = directions();
   middles.push_back(unit(mean));
   double best = -1;

@@ -15,8 +15,9 @@ class FieldChart {
  public:
   /// For a patch that is a disc with this boundary, its left side inside seen from where V points,
   /// and the surface's normals there. If these are nearly parallel, and the boundary is simple
-  /// seen from their mean, lines are parallel to that. Else parallel lines of V go to points of a
-  /// plane across them, rays stereographically to a plane, from a direction outside of the patch.
+  /// seen from their mean, lines are parallel to that. Else they are rays from near all normals, if
+  /// these are less steep than V, or lines of V. Parallel lines go to points of a plane across
+  /// them, rays stereographically to a plane, from a direction outside of the patch.
   FieldChart(const GraphCertificate& graph, const std::vector<Point<3>>& boundary,
              const std::vector<Point<3>>& normals);
   /// For a closed surface around the centre of V.
@@ -36,6 +37,8 @@ class FieldChart {
  private:
   enum class Kind { Parallel, Stereographic, Directions };
   void look_from(const Point<3>& middle);
+  void look_around(const Point<3>& centre, double outward, const std::vector<Point<3>>& boundary);
+  bool is_simple(const std::vector<Point<3>>& boundary) const;
   std::vector<Point<3>> images(const std::vector<Point<3>>& points) const;
 
   Kind kind_ = Kind::Parallel;

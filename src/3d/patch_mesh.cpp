@@ -20,18 +20,20 @@ double cotangent(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   return dot(p, q) / length(cross(p, q));
 }
 
+/// Whether one corner lies nearly on the edge between the others.
+bool is_flat(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  constexpr double kFlat = 0.001;
+  const double p = length(b - a), q = length(c - a), r = length(c - b);
+  return length(cross(b - a, c - a)) < kFlat * std::min({p * q, q * r, r * p});
+}
+
 }  // namespace
 
 int PatchMesh::add(int id) {
   ids_.push_back(id);
   coordinates_.push_back(chart_.coordinates(points_[id]));
-  sizes_.push_back(size_at(surface_, points_[id]));
+  corners_.push_back(corner_maker_.corner(points_[id], lines_.sides(id)));
   return static_cast<int>(ids_.size()) - 1;
-}
-
-Corners PatchMesh::corners_of(const Triangle& triangle) const {
-  const auto& [a, b, c] = triangle.corners;
-  return {{at(a), at(b), at(c)}, {sizes_[a], sizes_[b], sizes_[c]}};
 }
 
 void PatchMesh::join_neighbours() {
@@ -113,7 +115,7 @@ bool PatchMesh::lift(const FieldChart::Line& line, double guess, Point<3>* point
   if (!graph_.box.contains(*point)) return false;
   // f is negative before and positive behind a root, proved; nearer ones than this are not told
   // apart from where rounding takes the point.
-  for (double by = 0x1p-20 * goal_.least_length; by <= goal_.least_length; by *= 32) {
+  for (double by = 0x1p-10 * goal_.least_length; by <= 0x1p10 * goal_.least_length; by *= 32) {
     const Interval before = surface_.value(*point - by * line.along, Kernel::kDoubleBits);
     const Interval behind = surface_.value(*point + by * line.along, Kernel::kDoubleBits);
     if (before.hi < 0 && behind.lo > 0) return true;
@@ -167,7 +169,7 @@ bool PatchMesh::split(int t, int edge, std::vector<int>* changed) {
     points_.pop_back();
     ids_.pop_back();
     coordinates_.pop_back();
-    sizes_.pop_back();
+    corners_.pop_back();
     return false;
   }
   const int beyond_bc = triangles_[t].neighbours[(edge + 1) % 3];
@@ -215,8 +217,9 @@ void PatchMesh::flip(int t, int edge) {
   replace_neighbour(beyond_bc, t, u);
 }
 
-/// Flips edges whose opposite angles in the chart add up to more than pi; for certain only a
-/// bounded number of times.
+/// Flips edges whose opposite angles in space add up to more than pi: then those of the other
+/// diagonal do not, as no four angles of a quadrangle in space add up to more than 2 pi. For
+/// certain only a bounded number of times.
 void PatchMesh::make_delaunay(std::vector<int> work, std::vector<int>* changed) {
   std::size_t left = 4096 + 64 * work.size();
   while (!work.empty() && left > 0) {
@@ -234,12 +237,22 @@ void PatchMesh::make_delaunay(std::vector<int> work, std::vector<int>* changed) 
   }
 }
 
-/// At the middle of the longest edge, unless that is one of the boundary.
+/// An edge within that lies in a side of the region; -1: none.
+int PatchMesh::chord_of(const Triangle& t) const {
+  for (int i = 0; i < 3; ++i)
+    if (t.neighbours[i] >= 0 &&
+        common_side(corners_[t.corners[i]].sides, corners_[t.corners[(i + 1) % 3]].sides) >= 0)
+      return i;
+  return -1;
+}
+
+/// At the middle of the longest edge, unless that is one of the boundary; of a chord, if it has one.
 void PatchMesh::divide(int t, std::vector<int>* changed) {
+  const std::array<int, 3>& corners = triangles_[t].corners;
   int longest = 0;
   double most = 0;
   for (int i = 0; i < 3; ++i) {
-    const double l = length(at(triangles_[t].corners[(i + 1) % 3]) - at(triangles_[t].corners[i]));
+    const double l = length(at(corners[(i + 1) % 3]) - at(corners[i]));
     if (l > most) {
       most = l;
       longest = i;
@@ -247,18 +260,18 @@ void PatchMesh::divide(int t, std::vector<int>* changed) {
   }
   triangles_[t].given_up = true;
   if (most < goal_.least_length) return;
-  // Flat triangles beget flat ones: what is around them must be divided, or the boundary.
-  constexpr double kFlat = 0.001;
-  const Point<3>& first = at(triangles_[t].corners[0]);
-  const Point<3> doubled_area =
-      cross(at(triangles_[t].corners[1]) - first, at(triangles_[t].corners[2]) - first);
-  if (triangles_[t].neighbours[longest] >= 0 && length(doubled_area) < kFlat * most * most) return;
-  if (triangles_[t].neighbours[longest] < 0) {
-    too_long_.emplace_back(ids_[triangles_[t].corners[longest]],
-                           ids_[triangles_[t].corners[(longest + 1) % 3]]);
+  if (const int chord = chord_of(triangles_[t]); chord >= 0) {
+    split(t, chord, changed);
     return;
   }
-  split(t, longest, changed);
+  // Flat triangles beget flat ones: what is around them must be divided, or the boundary.
+  const auto [a, b, c] = corners;
+  const bool flat = is_flat(at(a), at(b), at(c));
+  const bool flat_in_chart = is_flat(coordinates_[a], coordinates_[b], coordinates_[c]);
+  for (int i = 0; i < 3; ++i)
+    if (triangles_[t].neighbours[i] < 0 && (i == longest || flat_in_chart))
+      too_long_.emplace_back(ids_[corners[i]], ids_[corners[(i + 1) % 3]]);
+  if (triangles_[t].neighbours[longest] >= 0 && !flat && !flat_in_chart) split(t, longest, changed);
 }
 
 /// The triangle a b c on an edge a b of the boundary becomes a m c and m b c.
@@ -309,14 +322,17 @@ void PatchMesh::refine(int most) {
     triangles_[t].given_up = false;
     work.push_back(static_cast<int>(t));
   }
-  const auto good = [&](const TriangleBounds& bounds) {
-    return bounds.distance <= goal_.tolerance && bounds.angle <= goal_.angle;
+  const auto good = [&](const Triangle& t) {
+    return t.bounds.distance <= goal_.tolerance && t.bounds.angle <= goal_.angle &&
+           t.bounds.way <= goal_.tolerance && chord_of(t) < 0;
   };
   for (std::size_t next = 0; next < work.size(); ++next) {
     Triangle& t = triangles_[work[next]];
-    if (t.given_up || good(t.bounds)) continue;
-    t.bounds = bound_triangle(models_, corners_of(t), goal_.tolerance);
-    if (good(t.bounds)) continue;
+    if (t.given_up || good(t)) continue;
+    const auto& [a, b, c] = t.corners;
+    t.bounds = bound_triangle(models_, {corners_[a], corners_[b], corners_[c]}, goal_.tolerance,
+                              corner_maker_.moved());
+    if (good(t)) continue;
     if (static_cast<int>(triangles_.size()) >= most) break;
     std::vector<int> changed;
     divide(work[next], &changed);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "3d/facet_lines.hpp"
 #include "3d/field_chart.hpp"
 #include "3d/triangle_bounds.hpp"
 
@@ -18,8 +19,7 @@ struct MeshGoal {
   double least_length = 0;  ///< edges shorter than this are not divided
 };
 
-/// Triangles of one patch of a surface. Corners are places in a list of points shared with other
-/// patches.
+/// Triangles of one patch of a surface, between points of a list shared with other patches.
 class PatchMesh {
  public:
   struct Triangle {
@@ -32,11 +32,14 @@ class PatchMesh {
   /// `points` is added to; all but the chart are to outlive this. The lines of the chart meet the
   /// surface at most once in the box of the certificate.
   PatchMesh(const FieldChart& chart, const GraphCertificate& graph, SurfaceModels& models,
-            const MeshGoal& goal, std::vector<Point<3>>* points)
+            const MeshCorners& corner_maker, const FacetLines& lines, const MeshGoal& goal,
+            std::vector<Point<3>>* points)
       : chart_(chart),
         graph_(graph),
         models_(models),
         surface_(models.surface()),
+        corner_maker_(corner_maker),
+        lines_(lines),
         goal_(goal),
         points_(*points) {}
 
@@ -54,17 +57,18 @@ class PatchMesh {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   /// A corner's place in the list of points.
   int point(int corner) const { return ids_[corner]; }
+  const Corner& corner(int corner) const { return corners_[corner]; }
   /// Edges of the boundary that stand in the way of the goal, by the places of their points.
   const std::vector<std::pair<int, int>>& too_long() const { return too_long_; }
 
  private:
   int add(int id);
-  Corners corners_of(const Triangle& triangle) const;
-  const Point<3>& at(int corner) const { return points_[ids_[corner]]; }
+  const Point<3>& at(int corner) const { return corners_[corner].at; }
   bool positive(int a, int b, int c) const {
     return chart_.positive(coordinates_[a], coordinates_[b], coordinates_[c]);
   }
   void join_neighbours();
+  int chord_of(const Triangle& triangle) const;
   bool lift(const FieldChart::Line& line, double guess, Point<3>* point) const;
   bool crowds_boundary(const Point<3>& point);
   void divide(int triangle, std::vector<int>* changed);
@@ -79,10 +83,12 @@ class PatchMesh {
   const GraphCertificate& graph_;
   SurfaceModels& models_;
   const SurfaceBounds& surface_;
+  const MeshCorners& corner_maker_;
+  const FacetLines& lines_;
   const MeshGoal& goal_;
   std::vector<Point<3>>& points_;
   std::vector<int> ids_;
-  std::vector<double> sizes_;  ///< bounds of |f| at the corners
+  std::vector<Corner> corners_;
   std::vector<Point<3>> coordinates_;
   std::vector<Triangle> triangles_;
   std::vector<std::pair<int, int>> boundary_;  ///< its edges, by the places of their points

@@ -29,13 +29,14 @@ class Mesher {
     const double size = encasement.region_used.bounding_box().largest_width();
     goal_.tolerance = options.tolerance;
     goal_.angle = options.angle;
-    goal_.least_length = 0x1p-20 * size;
+    goal_.least_length = 0x1p-30 * size;
     functions_.reserve(encasement.surfaces.size());
     for (const Surface& surface : encasement.surfaces) functions_.emplace_back(surface.function);
     bounds_.reserve(functions_.size());
     for (const auto& function : functions_) {
       bounds_.emplace_back(function, size);
       models_.emplace_back(bounds_.back(), kernel_);
+      corners_.emplace_back(encasement, bounds_.back());
     }
     lines_ = std::make_unique<FacetLines>(encasement, functions_, options.tolerance, options.angle,
                                           &points_);
@@ -121,8 +122,9 @@ class Mesher {
       }
     const FieldChart chart =
         boundary.empty() ? FieldChart(*patch->graph) : FieldChart(*patch->graph, corners, normals);
-    patch->mesh = std::make_unique<PatchMesh>(chart, *patch->graph, models_[patch->patch->surface],
-                                              goal_, &points_);
+    const int s = patch->patch->surface;
+    patch->mesh = std::make_unique<PatchMesh>(chart, *patch->graph, models_[s], corners_[s],
+                                              *lines_, goal_, &points_);
     patch->failed = !(boundary.empty() ? patch->mesh->surround(encasement_.cells[patch->cell].box)
                                        : patch->mesh->fill(boundary));
   }
@@ -156,6 +158,8 @@ class Mesher {
     mesh.complete = surface_topology(encasement_)[surface].complete;
     std::map<int, int> number;
     std::set<std::pair<int, int>> edges;
+    std::vector<Corner> corners;
+    double way = 0;
     for (const Patch& patch : patches_) {
       if (patch.patch->surface != surface) continue;
       mesh.complete = mesh.complete && !patch.failed;
@@ -168,6 +172,7 @@ class Mesher {
           if (is_new) {
             mesh.points.push_back(points_[p]);
             mesh.normals.push_back(unit(functions_[surface].gradient(points_[p])));
+            corners.push_back(patch.mesh->corner(t.corners[i]));
           }
           triangle[i] = place->second;
         }
@@ -178,12 +183,16 @@ class Mesher {
         mesh.angles.push_back(t.bounds.angle);
         mesh.distance = std::max(mesh.distance, t.bounds.distance);
         mesh.angle = std::max(mesh.angle, t.bounds.angle);
+        way = std::max(way, t.bounds.way);
       }
     }
     mesh.euler = static_cast<int>(mesh.points.size()) - static_cast<int>(edges.size()) +
                  static_cast<int>(mesh.triangles.size());
     mesh.within_tolerance = mesh.distance <= options_.tolerance && mesh.angle <= options_.angle;
-    mesh.distance_to_mesh = cover_distance(mesh, encasement_, models_[surface]);
+    if (covers_surface(mesh, encasement_, corners_[surface], corners, way)) {
+      mesh.distance_to_mesh = way;
+      mesh.isotopic = is_embedded(mesh, corners_[surface]);
+    }
     return mesh;
   }
 
@@ -195,6 +204,7 @@ class Mesher {
   std::vector<FilteredFunction<3>> functions_;
   std::vector<SurfaceBounds> bounds_;
   std::deque<SurfaceModels> models_;
+  std::vector<MeshCorners> corners_;
   std::vector<Point<3>> points_;  ///< of all patches and lines
   std::unique_ptr<FacetLines> lines_;
   std::vector<Patch> patches_;

@@ -11,10 +11,11 @@ namespace encase {
 namespace {
 
 constexpr double kUp = 1 + 0x1p-40;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What is known of f over a triangle, as far from it as `way`.
 struct Surroundings {
-  Surroundings(SurfaceModels& f, const Corners& corners, double reach);
+  Surroundings(SurfaceModels& f, const Corners& corners, double furthest);
   /// The second derivative in two directions.
   Interval along(const IntervalVector& a, const IntervalVector& b) const {
     Interval sum(0);
@@ -34,8 +35,8 @@ struct Surroundings {
   double size = 0;                      ///< bounds |f| on the triangle
 };
 
-Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double reach) {
-  const auto& [p, q, r] = corners.points;
+Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double furthest) {
+  const Point<3>&p = corners[0].at, &q = corners[1].at, &r = corners[2].at;
   const Point<3> area = cross(q - p, r - p), normal = unit(area);
   if (!(length(normal) > 0.5)) return;
   longest = std::max({length(q - p), length(r - q), length(p - r)}) * kUp;
@@ -47,7 +48,7 @@ Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double reac
   v = exactly(basis[1]);
   n = exactly(normal);
 
-  way = std::min(reach, longest) * kUp;
+  way = std::min(furthest, longest) * kUp;
   const Box<3> box = inflated(hull(hull(Box<3>{p, p}, {q, q}), {r, r}), way);
   const SurfaceModel& model = f.around(box);
   bends = model.second(box);
@@ -65,9 +66,9 @@ Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double reac
 
   double sum = between + bend;
   for (int i = 0; i < 3; ++i) {
-    slopes[i] = model.gradient(corners.points[i]);
-    size = std::max(size, corners.sizes[i]);
-    sum += corners.sizes[i];
+    slopes[i] = model.gradient(corners[i].at);
+    size = std::max(size, corners[i].size);
+    sum += corners[i].size;
     for (const Interval& slope : slopes[i]) sum += magnitude(slope);
   }
   const double h = in_plane + tilted + 4 * model.bend_error();
@@ -75,13 +76,9 @@ Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double reac
   known = std::isfinite(sum + size);
 }
 
-}  // namespace
-
-TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach) {
-  TriangleBounds result;
-  const Surroundings s(f, corners, reach);
-  if (!s.known) return result;
-  double up = std::numeric_limits<double>::infinity(), along = 0, largest = 0;
+/// Distance and angle, if the surface is looked for as far as `s` reaches.
+void bound_across(const Surroundings& s, TriangleBounds* bounds) {
+  double up = kInfinity, along = 0, largest = 0;
   for (const IntervalVector& slope : s.slopes) {
     const Interval rise = dot(slope, s.n);
     up = std::min(up, rise.lo);
@@ -91,26 +88,44 @@ TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double r
   along = (along + s.between + s.aside * s.way) * kUp;
   largest = (largest + along + s.between + s.upward * s.way) * kUp;
   const double mu = up - (s.between + s.upward * s.way + s.tilt * largest) * kUp;
-  if (!(mu > 0)) return result;
-  result.angle = std::atan((along + s.tilt * largest) / mu) * kUp;
+  if (!(mu > 0)) return;
+  bounds->angle = std::atan((along + s.tilt * largest) / mu) * kUp;
   const double distance = s.size / mu * kUp;
-  if (distance <= std::min(reach, s.longest)) result.distance = distance;
-  return result;
+  if (distance <= s.way) bounds->distance = distance;
 }
 
-/// In the directions W, grad f . W is up to `between` a quadratic form in the barycentric
-/// coordinates of a point of the triangle, at least the least of its Bernstein coefficients; on the
-/// way it changes by second derivatives W . H W.
-double bound_along(SurfaceModels& f, const Corners& corners,
-                   const std::array<Point<3>, 3>& directions, double reach, double moved) {
-  const Surroundings s(f, corners, reach);
-  double up = std::numeric_limits<double>::infinity(), steepest = 0, change = 0;
+double determinant(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  return dot(cross(a, b), c);
+}
+
+/// Whether (x, s) -> x + s W(x) has a positive Jacobian on the triangle, for |s| <= way, also if
+/// the corners are moved a little.
+bool unfolded(const Corners& c, double way, double moved) {
+  const Point<3> e1 = c[1].at - c[0].at, e2 = c[2].at - c[0].at;
+  const Point<3> w1 = c[1].direction - c[0].direction, w2 = c[2].direction - c[0].direction;
+  const double long1 = length(e1) + way * length(w1), long2 = length(e2) + way * length(w2);
+  const double slack = 0x1p-40 * long1 * long2 + 8 * moved * (long1 + long2 + moved);
+  return std::all_of(c.begin(), c.end(), [&](const Corner& corner) {
+    const Point<3>& w = corner.direction;
+    return determinant(e1, e2, w) -
+               way * std::fabs(determinant(w1, e2, w) + determinant(e1, w2, w)) -
+               way * way * std::fabs(determinant(w1, w2, w)) >
+           slack;
+  });
+}
+
+/// The way, if the surface is looked for as far as `s` reaches. grad f . W is up to `between` a
+/// quadratic form in the barycentric coordinates of a point of the triangle, at least the least of
+/// its Bernstein coefficients; on the way it changes by second derivatives W . H W.
+double way_along(const Surroundings& s, const Corners& corners, double moved) {
+  double up = kInfinity, steepest = 0, change = 0, room = kInfinity;
   for (int i = 0; i < 3; ++i) {
-    const IntervalVector w = exactly(directions[i]);
+    room = std::min(room, corners[i].room);
+    const IntervalVector w = exactly(corners[i].direction);
     steepest = std::max(steepest, magnitude(s.slopes[i][0]) + magnitude(s.slopes[i][1]) +
                                       magnitude(s.slopes[i][2]));
     for (int j = i; j < 3; ++j) {
-      const IntervalVector x = exactly(directions[j]);
+      const IntervalVector x = exactly(corners[j].direction);
       up = std::min(up, 0.5 * (dot(s.slopes[i], x) + dot(s.slopes[j], w)).lo);
       change = std::max(change, magnitude(s.along(w, x)));
     }
@@ -118,9 +133,29 @@ double bound_along(SurfaceModels& f, const Corners& corners,
   steepest = (steepest + s.between + s.bend * s.way) * kUp;
   change = (change + 3 * 0x1p-40 * s.bend) * s.way + s.bend * moved;
   const double mu = up - (s.between + change + 0x1p-40 * steepest) * kUp;
-  const double distance = (s.size + moved * steepest) / mu * kUp + moved;
-  const bool proved = s.known && mu > 0 && distance + 2 * moved <= std::min(reach, s.longest);
-  return proved ? distance : std::numeric_limits<double>::infinity();
+  if (!(mu > 0)) return kInfinity;
+  const double way = (s.size + moved * steepest) / mu * kUp + moved;
+  return way + 2 * moved <= s.way && way <= room && unfolded(corners, way, moved) ? way : kInfinity;
+}
+
+}  // namespace
+
+/// On triangles that turn little against the surface it is nearer than a small part of their sides,
+/// and what is far away would only blur the bounds.
+TriangleBounds bound_triangle(SurfaceModels& f, const Corners& corners, double reach,
+                              double moved) {
+  constexpr double kNear = 1.0 / 16;
+  const Point<3>&p = corners[0].at, &q = corners[1].at, &r = corners[2].at;
+  const double near = kNear * std::max({length(q - p), length(r - q), length(p - r)});
+  TriangleBounds result;
+  for (const double furthest : {std::min(near, reach), reach}) {
+    const Surroundings s(f, corners, furthest);
+    if (!s.known) continue;
+    if (!std::isfinite(result.distance)) bound_across(s, &result);
+    if (!std::isfinite(result.way)) result.way = way_along(s, corners, moved);
+    if (std::isfinite(result.distance) && std::isfinite(result.way)) break;
+  }
+  return result;
 }
 
 }  // namespace encase

@@ -67,14 +67,34 @@ TEST(TriangleBounds, AreSharpForASphere) {
   const double a = 0.1, height = std::sqrt(1 - a * a);
   Corners corners;
   for (int k = 0; k < 3; ++k) {
-    corners.points[k] = {a * std::cos(2 * M_PI * k / 3), a * std::sin(2 * M_PI * k / 3), height};
-    corners.sizes[k] = size_at(bounds, corners.points[k]);
+    const Point<3> p{a * std::cos(2 * M_PI * k / 3), a * std::sin(2 * M_PI * k / 3), height};
+    corners[k] = {p, kWithin, magnitude(bounds.value(p, Kernel::kDoubleBits)), p, 1.0};
   }
-  const TriangleBounds proved = bound_triangle(models, corners, 0.01);
+  const TriangleBounds proved = bound_triangle(models, corners, 0.01, 0x1p-40);
   EXPECT_GE(proved.distance, 1 - height);
   EXPECT_LE(proved.distance, 1.1 * (1 - height));
   EXPECT_GE(proved.angle, std::asin(a));
   EXPECT_LE(proved.angle, 1.1 * std::asin(a));
+  // Along directions from the origin the sphere is as far as it is at all.
+  EXPECT_GE(proved.way, 1 - height);
+  EXPECT_LE(proved.way, 1.1 * (1 - height));
+}
+
+TEST(TriangleBounds, HaveNoWayOutOfTheRegion) {
+  const FilteredFunction<3> f(written::polynomial<3>("x^2+y^2+z^2-1"));
+  Kernel kernel;
+  const SurfaceBounds bounds(f, 4);
+  SurfaceModels models(bounds, kernel);
+  const double a = 0.1, height = std::sqrt(1 - a * a);
+  for (const double room : {1.1 * (1 - height), 0.9 * (1 - height)}) {
+    Corners corners;
+    for (int k = 0; k < 3; ++k) {
+      const Point<3> p{a * std::cos(2 * M_PI * k / 3), a * std::sin(2 * M_PI * k / 3), height};
+      corners[k] = {p, kWithin, magnitude(bounds.value(p, Kernel::kDoubleBits)), p, k == 1 ? room : 1.0};
+    }
+    EXPECT_EQ(std::isfinite(bound_triangle(models, corners, 0.01, 0x1p-40).way),
+              room > 1 - height);
+  }
 }
 
 }  // namespace
