@@ -123,46 +123,57 @@ HWY_INLINE void halve_rows(Row* t, Row* lower, Row* upper, Extremes* extremes) {
   extremes[1] = high.extremes();
 }
 
-/// The extremes of the first differences across rows and across lanes; and, where neither keeps a
-/// sign, whether one of the two combinations of the derivatives does that the mean Hessian's
-/// adjugate suggests. `radius`: of the differences, across rows and lanes, rounding included.
+/// The partial derivatives at the corners of the box, without the factor degree / 2: across rows
+/// and across lanes. They are coefficients of the derivatives' nets in any degree.
+struct CornerSlopes {
+  std::array<double, 4> rows, lanes;
+};
 template <int N>
-HWY_INLINE bool combine_gradient(const Net& net, double magnitude, const double* radius,
-                                 Extremes* slope) {
-  constexpr double n = N - 1;
-  // The rows between zeros, for neighbours of lanes.
-  HWY_ALIGN double memory[8 * (N + 2)];
-  Row b[N];
-  Row::all(0).store(memory);
-  for (int i = 0; i < N; ++i) {
-    b[i] = Row::load(net[i].data());
-    b[i].store(memory + 8 * (i + 1));
+HWY_INLINE CornerSlopes corner_slopes(const Net& net) {
+  constexpr int n = N - 1;
+  const auto &first = net[0], &second = net[1], &last_but_one = net[n - 1], &last = net[n];
+  return {{second[0] - first[0], second[n] - first[n], last[0] - last_but_one[0],
+           last[n] - last_but_one[n]},
+          {first[1] - first[0], first[n] - first[n - 1], last[1] - last[0], last[n] - last[n - 1]}};
+}
+
+/// Whether no two have different signs.
+HWY_INLINE bool agree(const std::array<double, 4>& x) {
+  const double lo = std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
+  const double hi = std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
+  return lo > 0 || hi < 0;
+}
+
+HWY_INLINE double largest(const std::array<double, 4>& x) {
+  const auto size = [](double a) { return a < 0 ? -a : a; };
+  return std::max(std::max(size(x[0]), size(x[1])), std::max(size(x[2]), size(x[3])));
+}
+
+HWY_INLINE bool beyond(const Extremes& e, double radius) { return e.lo > radius || e.hi < -radius; }
+
+/// A net between zeros: the rows, and for every row the neighbours of its lanes.
+template <int N>
+class Neighbours {
+ public:
+  HWY_INLINE explicit Neighbours(const Net& net) {
+    Row::all(0).store(memory_);
+    for (int i = 0; i < N; ++i) Row::load(net[i].data()).store(memory_ + 8 * (i + 1));
+    Row::all(0).store(memory_ + 8 * (N + 1));
   }
-  Row::all(0).store(memory + 8 * (N + 1));
-  Row next[N];
-  for (int i = 0; i < N; ++i) next[i] = Row::load_unaligned(memory + 8 * (i + 1) + 1);
-  Extent across_rows(b[1] - b[0]), across_lanes(next[0] - b[0]);
-  for (int i = 1; i + 1 < N; ++i) across_rows.add(b[i + 1] - b[i]);
-  for (int i = 1; i < N; ++i) across_lanes.add(next[i] - b[i]);
-  across_lanes.keep_lanes(N - 1);
-  slope[0] = across_rows.extremes();
-  slope[1] = across_lanes.extremes();
-  for (int k = 0; k < 2; ++k)
-    if (slope[k].lo > radius[k] || slope[k].hi < -radius[k]) return true;
+  HWY_INLINE Row here(int i) const { return Row::load(memory_ + 8 * (i + 1)); }
+  HWY_INLINE Row next(int i) const { return Row::load_unaligned(memory_ + 8 * (i + 1) + 1); }
+  HWY_INLINE Row previous(int i) const { return Row::load_unaligned(memory_ + 8 * (i + 1) - 1); }
 
-  // Means of second differences, about.
-  HWY_ALIGN double of_lanes[8];
-  Row total = b[0];
-  for (int i = 1; i < N; ++i) total = total + b[i];
-  total.store(of_lanes);
-  const double rows_twice =
-      sum_of_lanes(first_lanes((b[N - 1] - b[N - 2]) - (b[1] - b[0]), Row::all(0), N));
-  const double lanes_twice = (of_lanes[N - 1] - of_lanes[N - 2]) - (of_lanes[1] - of_lanes[0]);
-  const double mixed = (net[N - 1][N - 1] - net[N - 1][0]) - (net[0][N - 1] - net[0][0]);
-  const double y[2][2] = {{lanes_twice, -mixed}, {-mixed, rows_twice}};
+ private:
+  HWY_ALIGN double memory_[8 * (N + 2)];
+};
 
-  // A derivative raised to the degree of the net: its coefficient k is made of the net's k - 1, k
-  // and k + 1 with the weights -k/n, 2k/n - 1 and 1 - k/n.
+/// The extremes of alpha times the derivative across rows and beta times that across lanes, both
+/// raised to the degree of the net: a coefficient k is made of the net's k - 1, k and k + 1 with
+/// the weights -k/n, 2k/n - 1 and 1 - k/n.
+template <int N>
+HWY_INLINE Extremes combine_slopes(const Neighbours<N>& net, double alpha, double beta) {
+  constexpr double n = N - 1;
   HWY_ALIGN double weight[2][8];
   for (int j = 0; j < 8; ++j) {
     weight[0][j] = j < N ? -j / n : -1;
@@ -170,28 +181,66 @@ HWY_INLINE bool combine_gradient(const Net& net, double magnitude, const double*
   }
   const Row before = Row::load(weight[0]), after = Row::load(weight[1]);
   const Row here = Row::all(0) - (before + after);
-  Extent first(Row::all(HUGE_VAL), Row::all(-HUGE_VAL)), second = first;
+  const Row of_rows = Row::all(alpha), of_lanes = Row::all(beta);
+  Extent extent(Row::all(HUGE_VAL), Row::all(-HUGE_VAL));
   for (int i = 0; i < N; ++i) {
-    const Row previous = Row::load_unaligned(memory + 8 * (i + 1) - 1);
-    const Row lanes = previous * before + b[i] * here + next[i] * after;
-    Row rows = b[i] * Row::all(2 * i / n - 1);
-    if (i > 0) rows = rows + b[i - 1] * Row::all(-i / n);
-    if (i < N - 1) rows = rows + b[i + 1] * Row::all(1 - i / n);
-    first.add(rows * Row::all(y[0][0]) + lanes * Row::all(y[0][1]));
-    second.add(rows * Row::all(y[1][0]) + lanes * Row::all(y[1][1]));
+    const Row lanes = net.previous(i) * before + net.here(i) * here + net.next(i) * after;
+    Row rows = net.here(i) * Row::all(2 * i / n - 1);
+    if (i > 0) rows = rows + net.here(i - 1) * Row::all(-i / n);
+    if (i < N - 1) rows = rows + net.here(i + 1) * Row::all(1 - i / n);
+    extent.add(rows * of_rows + lanes * of_lanes);
   }
-  const Extent* extents[2] = {&first, &second};
-  for (int k = 0; k < 2; ++k) {
-    Extent extent = *extents[k];
-    extent.keep_lanes(N);
-    const Extremes e = extent.extremes();
-    const double alpha = y[k][0] < 0 ? -y[k][0] : y[k][0], beta = y[k][1] < 0 ? -y[k][1] : y[k][1];
-    // Weights, products and sums round; derivatives are at most 2 M. (Infinite where one of the
-    // coefficients overflows.)
-    const double rounding = (4 * magnitude * (alpha + beta)) * (8 * 0x1p-53);
-    const double r = (alpha * radius[0] + beta * radius[1] + rounding) * (1 + 0x1p-40) + 0x1p-1000;
-    if (e.lo > r || e.hi < -r) return true;
+  extent.keep_lanes(N);
+  return extent.extremes();
+}
+
+/// Whether one of the derivatives keeps a sign, or one of the two combinations of them that the
+/// mean Hessian's adjugate suggests, as far as its signs at the corners leave it possible.
+/// `radius`: of the differences, across rows and lanes, rounding included. `variation`: how much
+/// they change.
+template <int N>
+HWY_INLINE bool excludes(const Net& net, double magnitude, const double* radius,
+                         double* variation) {
+  const CornerSlopes slopes = corner_slopes<N>(net);
+  const auto &r = slopes.rows, &l = slopes.lanes;
+  if (agree(r)) {
+    Extent extent(Row::load(net[1].data()) - Row::load(net[0].data()));
+    for (int i = 1; i + 1 < N; ++i)
+      extent.add(Row::load(net[i + 1].data()) - Row::load(net[i].data()));
+    if (beyond(extent.extremes(), radius[0])) return true;
   }
+  // Means of second derivatives, about.
+  const double rows_twice = (r[2] - r[0]) + (r[3] - r[1]),
+               lanes_twice = (l[1] - l[0]) + (l[3] - l[2]);
+  const double mixed =
+      (2.0 / (N - 1)) * ((net[N - 1][N - 1] - net[N - 1][0]) - (net[0][N - 1] - net[0][0]));
+  const double y[2][2] = {{lanes_twice, -mixed}, {-mixed, rows_twice}};
+  std::array<double, 4> corners[2];
+  for (int k = 0; k < 2; ++k)
+    for (int c = 0; c < 4; ++c) corners[k][c] = y[k][0] * r[c] + y[k][1] * l[c];
+  const bool some[3] = {agree(l), agree(corners[0]), agree(corners[1])};
+  if (some[0] || some[1] || some[2]) {
+    const Neighbours<N> neighbours(net);
+    if (some[0]) {
+      Extent extent(neighbours.next(0) - neighbours.here(0));
+      for (int i = 1; i < N; ++i) extent.add(neighbours.next(i) - neighbours.here(i));
+      extent.keep_lanes(N - 1);
+      if (beyond(extent.extremes(), radius[1])) return true;
+    }
+    for (int k = 0; k < 2; ++k) {
+      if (!some[1 + k]) continue;
+      const Extremes e = combine_slopes(neighbours, y[k][0], y[k][1]);
+      const double alpha = y[k][0] < 0 ? -y[k][0] : y[k][0],
+                   beta = y[k][1] < 0 ? -y[k][1] : y[k][1];
+      // Weights, products and sums round; derivatives are at most 2 M. (Infinite where one of the
+      // coefficients overflows.)
+      const double rounding = (4 * magnitude * (alpha + beta)) * (8 * 0x1p-53);
+      if (beyond(e, (alpha * radius[0] + beta * radius[1] + rounding) * (1 + 0x1p-40) + 0x1p-1000))
+        return true;
+    }
+  }
+  variation[0] = largest(r);
+  variation[1] = largest(l);
   return false;
 }
 
@@ -268,10 +317,10 @@ void halve_patch(const Net& net, int count, bool along_lanes, double radius, Net
 }
 
 bool test_gradient(const Net& net, int count, double magnitude, const double* radius,
-                   Extremes* slope) {
+                   double* variation) {
   bool result = false;
-  with_count(count, [&]<int N>()
-                        HWY_ATTR { result = combine_gradient<N>(net, magnitude, radius, slope); });
+  with_count(count,
+             [&]<int N>() HWY_ATTR { result = excludes<N>(net, magnitude, radius, variation); });
   return result;
 }
 
@@ -563,13 +612,12 @@ CriticalVerdict test_critical(const Patch& patch) {
   std::array<double, 2> radius;
   for (int i = 0; i < 2; ++i)
     radius[i] = (patch.slope_radius[i] / factor + 4 * kUnit * patch.magnitude()) * kUp + kTiny;
-  Extremes slope[2];
+  double variation[2];
   verdict.excluded = HWY_DYNAMIC_DISPATCH(test_gradient)(patch.b, patch.count, patch.magnitude(),
-                                                         radius.data(), slope);
+                                                         radius.data(), variation);
   if (verdict.excluded) return verdict;
   for (int i = 0; i < 2; ++i)
-    verdict.variation[i == 0 ? patch.rows_axis : 1 - patch.rows_axis] =
-        std::max(-slope[i].lo, slope[i].hi);
+    verdict.variation[i == 0 ? patch.rows_axis : 1 - patch.rows_axis] = variation[i];
   const auto sign = patch.sign();
   verdict.excluded = sign && no_extremum(patch, *sign);
   return verdict;
