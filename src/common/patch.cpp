@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/cubic_system.hpp"
 #include "common/interval.hpp"
 #include "encase/number.hpp"
 
@@ -22,6 +23,14 @@ namespace encase {
 /// The least and greatest numbers among the coefficients of a net.
 struct Extremes {
   double lo, hi;
+};
+
+/// The Bernstein coefficients in degree count - 1 of Chebyshev's polynomials: column k has those of
+/// T_k.
+struct ChebyshevTable {
+  int count = 0;
+  std::array<std::array<double, 8>, 8> matrix{};
+  double largest = 0;  ///< at least all absolute values
 };
 
 }  // namespace encase
@@ -57,43 +66,30 @@ HWY_INLINE void store_transposed(Row* rows, Net* to) {
   for (int j = 0; j < N; ++j) rows[j].store((*to)[j].data());
 }
 
-/// Samples the polynomial of a tile on the grid of nodes (x0 + hx node_k, y0 + hy node_l) and turns
-/// the samples into a Bernstein net. Returns its extremes.
+/// Chebyshev coefficients across rows, turned into Bernstein ones: even polynomials have symmetric
+/// ones.
 template <int N>
-HWY_INLINE Extremes expand_net(const double* a, int degree, const double* xs, const double* ys,
-                               const Interpolation& table, Net* net) {
-  HWY_ALIGN double columns[N][16];  // [k][j]: sum over i of a[i][j] x_k^i
-  int part = degree / 8;
-  do {
-    const double* from = a + 8 * part;
-    Row sum[N];
-    const int top = degree - 8 * part;
-    for (int k = 0; k < N; ++k) sum[k] = Row::load(from + top * Tile::kRow);
-    for (int i = top - 1; i >= 0; --i) {
-      const Row row = Row::load(from + i * Tile::kRow);
-      for (int k = 0; k < N; ++k) sum[k] = sum[k] * Row::all(xs[k]) + row;
-    }
-    for (int k = 0; k < N; ++k) sum[k].store(&columns[k][8 * part]);
-  } while (--part >= 0);
-  const Row y = Row::load(ys);
-  Row value[N];
-  for (int k = 0; k < N; ++k) value[k] = Row::all(columns[k][degree]);
-  for (int j = degree - 1; j >= 0; --j)
-    for (int k = 0; k < N; ++k) value[k] = value[k] * y + Row::all(columns[k][j]);
-  // To Bernstein coefficients across rows, then across lanes.
-  for (int j = 0; j < N; ++j) {
-    Row sum = value[0] * Row::all(table.matrix[j][0]);
-    for (int k = 1; k < N; ++k) sum = sum + value[k] * Row::all(table.matrix[j][k]);
-    sum.store((*net)[j].data());
+HWY_INLINE void to_bernstein(const ChebyshevTable& table, Row* c) {
+  Row result[N];
+  for (int j = 0; 2 * j < N; ++j) {
+    Row even = c[0], odd = c[1] * Row::all(table.matrix[j][1]);
+    for (int k = 2; k < N; k += 2) even = even + c[k] * Row::all(table.matrix[j][k]);
+    for (int k = 3; k < N; k += 2) odd = odd + c[k] * Row::all(table.matrix[j][k]);
+    result[j] = even + odd;
+    result[N - 1 - j] = even - odd;
   }
-  Row by_lane[N];
-  for (int k = 0; k < N; ++k) by_lane[k] = Row::load(table.by_lane[k].data());
-  Row rows[N];
-  for (int j = 0; j < N; ++j) {
-    Row sum = by_lane[0] * Row::all((*net)[j][0]);
-    for (int k = 1; k < N; ++k) sum = sum + by_lane[k] * Row::all((*net)[j][k]);
-    rows[j] = sum;
-  }
+  for (int j = 0; j < N; ++j) c[j] = result[j];
+}
+
+/// The Bernstein net of a Chebyshev net, transposed. Returns its extremes.
+template <int N>
+HWY_INLINE Extremes bernstein_net(const double* from, const ChebyshevTable& table, Net* net) {
+  Row rows[8];
+  for (int i = 0; i < N; ++i) rows[i] = Row::load(from + 8 * i);
+  to_bernstein<N>(table, rows);
+  for (int i = N; i < 8; ++i) rows[i] = rows[N - 1];
+  transpose(rows);
+  to_bernstein<N>(table, rows);
   Extent extent(rows[0]);
   for (int j = 0; j < N; ++j) {
     rows[j].store((*net)[j].data());
@@ -293,11 +289,9 @@ HWY_INLINE void with_count(int count, Run run) {
   }
 }
 
-Extremes expand_patch(const double* a, int degree, const double* xs, const double* ys,
-                      const Interpolation& table, Net* net) {
+Extremes bernstein_patch(const double* from, const ChebyshevTable& table, Net* net) {
   Extremes result{};
-  with_count(table.count,
-             [&]<int N>() HWY_ATTR { result = expand_net<N>(a, degree, xs, ys, table, net); });
+  with_count(table.count, [&]<int N>() HWY_ATTR { result = bernstein_net<N>(from, table, net); });
   return result;
 }
 
@@ -335,7 +329,7 @@ HWY_AFTER_NAMESPACE();
 namespace encase {
 namespace {
 
-HWY_EXPORT(expand_patch);
+HWY_EXPORT(bernstein_patch);
 HWY_EXPORT(halve_patch);
 HWY_EXPORT(test_gradient);
 HWY_EXPORT(second_derivatives);
@@ -398,6 +392,31 @@ Interpolation make_interpolation(int count) {
   return table;
 }
 
+/// By T_(k+1) = 2 s T_k - T_(k-1), in rational arithmetic.
+ChebyshevTable make_chebyshev_table(int count) {
+  ChebyshevTable table;
+  table.count = count;
+  std::vector<std::vector<Rational>> t{{1}, {-1, 1}};
+  const auto raised = [](const std::vector<Rational>& p) { return product(p, 1, 1); };
+  while (static_cast<int>(t.size()) < count) {
+    const std::vector<Rational> before = raised(raised(t[t.size() - 2]));
+    std::vector<Rational> next = product(t.back(), -2, 2);
+    for (std::size_t j = 0; j < next.size(); ++j) next[j] -= before[j];
+    t.push_back(std::move(next));
+  }
+  for (int k = 0; k < count; ++k) {
+    std::vector<Rational> column = t[k];
+    while (static_cast<int>(column.size()) < count) column = raised(column);
+    Integer choose = 1;
+    for (int j = 0; j < count; ++j) {
+      table.matrix[j][k] = nearest_double(column[j] / Rational(choose));
+      table.largest = std::max(table.largest, std::fabs(table.matrix[j][k]) * kUp);
+      choose = choose * (count - 1 - j) / (j + 1);
+    }
+  }
+  return table;
+}
+
 /// Every coefficient of a net may be off by `change`.
 void add_rounding(Patch* patch, double change) {
   const double n = patch->count - 1;
@@ -449,6 +468,19 @@ const Interpolation& interpolation(int count) {
   }
 }
 
+namespace {
+
+const ChebyshevTable& chebyshev_table(int count) {
+  static const std::vector<ChebyshevTable> tables = [] {
+    std::vector<ChebyshevTable> all(Patch::kMaxCount + 1);
+    for (int n = 2; n <= Patch::kMaxCount; ++n) all[n] = make_chebyshev_table(n);
+    return all;
+  }();
+  return tables[count];
+}
+
+}  // namespace
+
 const InterpolationLoss& interpolation_loss(int k) {
   // s^k minus its interpolant is w(s) h(s), where w is the product of (s - node), and h is the
   // complete homogeneous polynomial of degree k - 8 in s and the nodes. The nodes come in pairs
@@ -480,78 +512,36 @@ const InterpolationLoss& interpolation_loss(int k) {
 
 int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
 
-InterpolationLoss interpolation_loss(const Tile& tile, double part) {
-  // By the kind of loss and the power.
-  static const auto weights = [] {
-    std::array<std::array<double, 8>, 3> w;
-    for (int k = 0; k < 8; ++k) {
-      const InterpolationLoss& power = interpolation_loss(8 + k);
-      w[0][k] = power.value;
-      w[1][k] = power.slope;
-      w[2][k] = power.bend;
-    }
-    return w;
-  }();
-  if (tile.degree < 8) return {0, 0, 0};
-  const double square = part * part, fourth = square * square;
-  double power = fourth * fourth * kUp;
-  std::array<double, 3> sum{0, 0, 0};
-  for (int k = 0; k < 8; ++k, power *= part) {
-    const double size = tile.high_terms[k] * power;
-    for (int i = 0; i < 3; ++i) sum[i] += size * weights[i][k];
-  }
-  return {sum[0], sum[1], sum[2]};
-}
-
-namespace {
-
-/// What `expand` says of a net in any basis.
-struct Expanded {
-  Extremes extremes;
-  Point<2> part;           ///< the half widths of the box in the coordinates of the tile
-  InterpolationLoss loss;  ///< by the low degree
-  double rounding;         ///< of every coefficient
-};
-Expanded expand_with(const Interpolation& table, const Tile& tile, const Box<2>& box,
-                     std::array<std::array<double, 8>, 8>* net) {
-  Expanded e;
-  // (HWY_ALIGN is that of the scalar path here.)
-  alignas(64) std::array<std::array<double, 8>, 2> at;
-  for (int i = 0; i < 2; ++i) {
-    const Centered chart = centered(box.lo[i], box.hi[i]);
-    const double origin = (chart.center - tile.center[i]) / tile.half[i];
-    e.part[i] = chart.half / tile.half[i];
-    for (int k = 0; k < 8; ++k) at[i][k] = origin + e.part[i] * table.node[k];
-  }
-  e.extremes = HWY_DYNAMIC_DISPATCH(expand_patch)(tile.a[0].data(), tile.degree, at[0].data(),
-                                                  at[1].data(), table, net);
-  e.loss = interpolation_loss(tile, std::max(e.part[0], e.part[1]) * kUp);
-  // Samples: Horner's rule twice, at points that are off by less than 2^-50; then two matrix
-  // products.
-  const double n = tile.degree;
-  const double sample = 1.01 * kUnit * (4 * n + 2) * tile.sum + 0x1p-49 * tile.slope;
-  const double products = 1.01 * kUnit * 2 * (table.count + 2) * tile.sum;
-  e.rounding = table.norm * table.norm * (sample + products) * kUp + kTiny;
-  return e;
-}
-
-}  // namespace
-
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
-  const Expanded e = expand_with(interpolation(count), tile, box, &patch->b);
-  const Point<2>& part = e.part;
-  const InterpolationLoss& loss = e.loss;
+  CubicSource source;
+  expand(tile, box, &source);
+  const ChebyshevTable& table = chebyshev_table(count);
+  const Extremes extremes =
+      HWY_DYNAMIC_DISPATCH(bernstein_patch)(source.c[0].data(), table, &patch->b);
   patch->count = count;
-  patch->rows_axis = 0;
-  patch->lo = e.extremes.lo;
-  patch->hi = e.extremes.hi;
-  // The loss by the low degree and the tile's own error, in the coordinates of the box.
-  patch->radius = loss.value + tile.error;
-  for (int i = 0; i < 2; ++i) patch->slope_radius[i] = loss.slope + tile.slope_error * part[i];
-  patch->bend_radius = {loss.bend + tile.bend_error * part[0] * part[0],
-                        loss.bend + tile.bend_error * part[1] * part[1],
-                        loss.bend + tile.bend_error * part[0] * part[1]};
-  add_rounding(patch, e.rounding);
+  patch->rows_axis = 1 - source.rows_axis;
+  patch->lo = extremes.lo;
+  patch->hi = extremes.hi;
+  patch->radius = source.radius;
+  patch->left_out = source.left_out;
+  // T_k'' is at most (k^2 - 1)/3 times as large as T_k' may be, k <= 15; and of two variables one
+  // has a degree of at most 7.
+  constexpr double kBend = (15 * 15 - 1) / 3.0, kMixed = 7 * 7;
+  const Point<2>& slope = source.slope_radius;
+  const double rounding = 15 * 15 * kBend * (tile.sum * 0x1p-45 + kTiny);
+  Point<2> part;
+  for (int i = 0; i < 2; ++i) part[i] = centered(box.lo[i], box.hi[i]).half / tile.half[i] * kUp;
+  for (int i = 0; i < 2; ++i) {
+    const int axis = i == 0 ? patch->rows_axis : 1 - patch->rows_axis;
+    patch->slope_radius[i] = slope[axis];
+    patch->bend_radius[i] =
+        (kBend * slope[axis] + tile.bend_error * part[axis] * part[axis] + rounding) * kUp;
+  }
+  patch->bend_radius[2] =
+      (kMixed * (slope[0] + slope[1]) + tile.bend_error * part[0] * part[1] + rounding) * kUp;
+  // An entry, a product and at most four sums round, in either variable.
+  add_rounding(patch,
+               1.01 * kUnit * 12 * table.largest * table.largest * source.size * kUp + kTiny);
 }
 
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper) {
