@@ -481,35 +481,6 @@ const ChebyshevTable& chebyshev_table(int count) {
 
 }  // namespace
 
-const InterpolationLoss& interpolation_loss(int k) {
-  // s^k minus its interpolant is w(s) h(s), where w is the product of (s - node), and h is the
-  // complete homogeneous polynomial of degree k - 8 in s and the nodes. The nodes come in pairs
-  // +-x, so that h = sum of e_j s^(k-8-2j) with e_j that of degree j in the squares: all
-  // coefficients are positive, and h and its derivatives are largest at 1. w is Chebyshev's T_8 /
-  // 128 but for the rounding of the nodes: its derivatives are at most 64/128 and 1344/128.
-  static const auto table = [] {
-    std::array<InterpolationLoss, Tile::kMaxDegree + 1> losses{};
-    const auto node = chebyshev_nodes(8);
-    std::array<double, 4> e{1, 0, 0, 0};
-    for (int i = 0; i < 4; ++i)
-      for (int j = 1; j < 4; ++j) e[j] += e[j - 1] * node[i] * node[i];
-    for (int power = 8; power <= Tile::kMaxDegree; ++power) {
-      double h = 0, slope = 0, bend = 0;
-      for (int j = 0; 2 * j <= power - 8; ++j) {
-        const double m = power - 8 - 2 * j;
-        h += e[j];
-        slope += e[j] * m;
-        bend += e[j] * m * (m - 1);
-      }
-      constexpr double w = 1.0 / 128, w1 = 64.0 / 128, w2 = 1344.0 / 128, up = 1.00001;
-      losses[power] = {w * h * up, (w1 * h + w * slope) * up,
-                       (w2 * h + 2 * w1 * slope + w * bend) * up};
-    }
-    return losses;
-  }();
-  return table[k];
-}
-
 int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
 
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {

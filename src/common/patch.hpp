@@ -53,13 +53,6 @@ const Interpolation& interpolation(int count);
 /// The number of coefficients in either variable that patches of polynomials up to a degree have.
 int patch_count(int degree);
 
-/// What replacing a monomial s^k, k >= 8, by its interpolant of degree 7 costs on [-1,1]: bounds on
-/// the difference and its first two derivatives.
-struct InterpolationLoss {
-  double value, slope, bend;
-};
-const InterpolationLoss& interpolation_loss(int k);
-
 /// The patch with `count` coefficients in either variable (at least patch_count of the tile's
 /// degree) on a box inside the tile's rectangle, rows along x.
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch);
