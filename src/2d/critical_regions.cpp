@@ -35,6 +35,19 @@ std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
   return component;
 }
 
+namespace {
+
+/// The longer side's; in small boxes, where branches may stay close together for a long way, that
+/// along which f changes more, weighted by the width.
+int splitting_axis(const PlaneSubdivision<1>::Node& node, const std::array<double, 2>& change) {
+  constexpr int kUsualLevels = 16;
+  const Box<2>& box = node.box;
+  if (node.level < kUsualLevels) return cover::kSplitX - wider_axis(box);
+  return change[0] * box.width(0) >= change[1] * box.width(1) ? 0 : 1;
+}
+
+}  // namespace
+
 CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root,
                                  const std::vector<Line>& half_planes,
                                  const SubdivisionLimits& limits, Kernel& kernel) {
@@ -62,8 +75,7 @@ CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root
       result.other_points.push_back(node.box);
       return cover::kExcluded;
     }
-    // Across the axis along which f changes more, weighted by the width.
-    const int axis = change[0] * node.box.width(0) >= change[1] * node.box.width(1) ? 0 : 1;
+    const int axis = splitting_axis(node, change);
     if (const auto sign = node.net.sign(); sign && node.box.width(axis) <= fine) {
       if (!f.polynomial().is_polynomial()) proved_signs.push_back({node.box, *sign});
       result.other_points.push_back(node.box);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/cubic_system.hpp"
 #include "common/interval.hpp"
 #include "encase/number.hpp"
 
@@ -22,6 +23,14 @@ namespace encase {
 /// The least and greatest numbers among the coefficients of a net.
 struct Extremes {
   double lo, hi;
+};
+
+/// The Bernstein coefficients in degree count - 1 of Chebyshev's polynomials: column k has those of
+/// T_k.
+struct ChebyshevTable {
+  int count = 0;
+  std::array<std::array<double, 8>, 8> matrix{};
+  double largest = 0;  ///< at least all absolute values
 };
 
 }  // namespace encase
@@ -57,43 +66,30 @@ HWY_INLINE void store_transposed(Row* rows, Net* to) {
   for (int j = 0; j < N; ++j) rows[j].store((*to)[j].data());
 }
 
-/// Samples the polynomial of a tile on the grid of nodes (x0 + hx node_k, y0 + hy node_l) and turns
-/// the samples into a Bernstein net. Returns its extremes.
+/// Chebyshev coefficients across rows, turned into Bernstein ones: even polynomials have symmetric
+/// ones.
 template <int N>
-HWY_INLINE Extremes expand_net(const double* a, int degree, const double* xs, const double* ys,
-                               const Interpolation& table, Net* net) {
-  HWY_ALIGN double columns[N][16];  // [k][j]: sum over i of a[i][j] x_k^i
-  int part = degree / 8;
-  do {
-    const double* from = a + 8 * part;
-    Row sum[N];
-    const int top = degree - 8 * part;
-    for (int k = 0; k < N; ++k) sum[k] = Row::load(from + top * Tile::kRow);
-    for (int i = top - 1; i >= 0; --i) {
-      const Row row = Row::load(from + i * Tile::kRow);
-      for (int k = 0; k < N; ++k) sum[k] = sum[k] * Row::all(xs[k]) + row;
-    }
-    for (int k = 0; k < N; ++k) sum[k].store(&columns[k][8 * part]);
-  } while (--part >= 0);
-  const Row y = Row::load(ys);
-  Row value[N];
-  for (int k = 0; k < N; ++k) value[k] = Row::all(columns[k][degree]);
-  for (int j = degree - 1; j >= 0; --j)
-    for (int k = 0; k < N; ++k) value[k] = value[k] * y + Row::all(columns[k][j]);
-  // To Bernstein coefficients across rows, then across lanes.
-  for (int j = 0; j < N; ++j) {
-    Row sum = value[0] * Row::all(table.matrix[j][0]);
-    for (int k = 1; k < N; ++k) sum = sum + value[k] * Row::all(table.matrix[j][k]);
-    sum.store((*net)[j].data());
+HWY_INLINE void to_bernstein(const ChebyshevTable& table, Row* c) {
+  Row result[N];
+  for (int j = 0; 2 * j < N; ++j) {
+    Row even = c[0], odd = c[1] * Row::all(table.matrix[j][1]);
+    for (int k = 2; k < N; k += 2) even = even + c[k] * Row::all(table.matrix[j][k]);
+    for (int k = 3; k < N; k += 2) odd = odd + c[k] * Row::all(table.matrix[j][k]);
+    result[j] = even + odd;
+    result[N - 1 - j] = even - odd;
   }
-  Row by_lane[N];
-  for (int k = 0; k < N; ++k) by_lane[k] = Row::load(table.by_lane[k].data());
-  Row rows[N];
-  for (int j = 0; j < N; ++j) {
-    Row sum = by_lane[0] * Row::all((*net)[j][0]);
-    for (int k = 1; k < N; ++k) sum = sum + by_lane[k] * Row::all((*net)[j][k]);
-    rows[j] = sum;
-  }
+  for (int j = 0; j < N; ++j) c[j] = result[j];
+}
+
+/// The Bernstein net of a Chebyshev net, transposed. Returns its extremes.
+template <int N>
+HWY_INLINE Extremes bernstein_net(const double* from, const ChebyshevTable& table, Net* net) {
+  Row rows[8];
+  for (int i = 0; i < N; ++i) rows[i] = Row::load(from + 8 * i);
+  to_bernstein<N>(table, rows);
+  for (int i = N; i < 8; ++i) rows[i] = rows[N - 1];
+  transpose(rows);
+  to_bernstein<N>(table, rows);
   Extent extent(rows[0]);
   for (int j = 0; j < N; ++j) {
     rows[j].store((*net)[j].data());
@@ -123,46 +119,57 @@ HWY_INLINE void halve_rows(Row* t, Row* lower, Row* upper, Extremes* extremes) {
   extremes[1] = high.extremes();
 }
 
-/// The extremes of the first differences across rows and across lanes; and, where neither keeps a
-/// sign, whether one of the two combinations of the derivatives does that the mean Hessian's
-/// adjugate suggests. `radius`: of the differences, across rows and lanes, rounding included.
+/// The partial derivatives at the corners of the box, without the factor degree / 2: across rows
+/// and across lanes. They are coefficients of the derivatives' nets in any degree.
+struct CornerSlopes {
+  std::array<double, 4> rows, lanes;
+};
 template <int N>
-HWY_INLINE bool combine_gradient(const Net& net, double magnitude, const double* radius,
-                                 Extremes* slope) {
-  constexpr double n = N - 1;
-  // The rows between zeros, for neighbours of lanes.
-  HWY_ALIGN double memory[8 * (N + 2)];
-  Row b[N];
-  Row::all(0).store(memory);
-  for (int i = 0; i < N; ++i) {
-    b[i] = Row::load(net[i].data());
-    b[i].store(memory + 8 * (i + 1));
+HWY_INLINE CornerSlopes corner_slopes(const Net& net) {
+  constexpr int n = N - 1;
+  const auto &first = net[0], &second = net[1], &last_but_one = net[n - 1], &last = net[n];
+  return {{second[0] - first[0], second[n] - first[n], last[0] - last_but_one[0],
+           last[n] - last_but_one[n]},
+          {first[1] - first[0], first[n] - first[n - 1], last[1] - last[0], last[n] - last[n - 1]}};
+}
+
+/// Whether no two have different signs.
+HWY_INLINE bool agree(const std::array<double, 4>& x) {
+  const double lo = std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
+  const double hi = std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
+  return lo > 0 || hi < 0;
+}
+
+HWY_INLINE double largest(const std::array<double, 4>& x) {
+  const auto size = [](double a) { return a < 0 ? -a : a; };
+  return std::max(std::max(size(x[0]), size(x[1])), std::max(size(x[2]), size(x[3])));
+}
+
+HWY_INLINE bool beyond(const Extremes& e, double radius) { return e.lo > radius || e.hi < -radius; }
+
+/// A net between zeros: the rows, and for every row the neighbours of its lanes.
+template <int N>
+class Neighbours {
+ public:
+  HWY_INLINE explicit Neighbours(const Net& net) {
+    Row::all(0).store(memory_);
+    for (int i = 0; i < N; ++i) Row::load(net[i].data()).store(memory_ + 8 * (i + 1));
+    Row::all(0).store(memory_ + 8 * (N + 1));
   }
-  Row::all(0).store(memory + 8 * (N + 1));
-  Row next[N];
-  for (int i = 0; i < N; ++i) next[i] = Row::load_unaligned(memory + 8 * (i + 1) + 1);
-  Extent across_rows(b[1] - b[0]), across_lanes(next[0] - b[0]);
-  for (int i = 1; i + 1 < N; ++i) across_rows.add(b[i + 1] - b[i]);
-  for (int i = 1; i < N; ++i) across_lanes.add(next[i] - b[i]);
-  across_lanes.keep_lanes(N - 1);
-  slope[0] = across_rows.extremes();
-  slope[1] = across_lanes.extremes();
-  for (int k = 0; k < 2; ++k)
-    if (slope[k].lo > radius[k] || slope[k].hi < -radius[k]) return true;
+  HWY_INLINE Row here(int i) const { return Row::load(memory_ + 8 * (i + 1)); }
+  HWY_INLINE Row next(int i) const { return Row::load_unaligned(memory_ + 8 * (i + 1) + 1); }
+  HWY_INLINE Row previous(int i) const { return Row::load_unaligned(memory_ + 8 * (i + 1) - 1); }
 
-  // Means of second differences, about.
-  HWY_ALIGN double of_lanes[8];
-  Row total = b[0];
-  for (int i = 1; i < N; ++i) total = total + b[i];
-  total.store(of_lanes);
-  const double rows_twice =
-      sum_of_lanes(first_lanes((b[N - 1] - b[N - 2]) - (b[1] - b[0]), Row::all(0), N));
-  const double lanes_twice = (of_lanes[N - 1] - of_lanes[N - 2]) - (of_lanes[1] - of_lanes[0]);
-  const double mixed = (net[N - 1][N - 1] - net[N - 1][0]) - (net[0][N - 1] - net[0][0]);
-  const double y[2][2] = {{lanes_twice, -mixed}, {-mixed, rows_twice}};
+ private:
+  HWY_ALIGN double memory_[8 * (N + 2)];
+};
 
-  // A derivative raised to the degree of the net: its coefficient k is made of the net's k - 1, k
-  // and k + 1 with the weights -k/n, 2k/n - 1 and 1 - k/n.
+/// The extremes of alpha times the derivative across rows and beta times that across lanes, both
+/// raised to the degree of the net: a coefficient k is made of the net's k - 1, k and k + 1 with
+/// the weights -k/n, 2k/n - 1 and 1 - k/n.
+template <int N>
+HWY_INLINE Extremes combine_slopes(const Neighbours<N>& net, double alpha, double beta) {
+  constexpr double n = N - 1;
   HWY_ALIGN double weight[2][8];
   for (int j = 0; j < 8; ++j) {
     weight[0][j] = j < N ? -j / n : -1;
@@ -170,28 +177,66 @@ HWY_INLINE bool combine_gradient(const Net& net, double magnitude, const double*
   }
   const Row before = Row::load(weight[0]), after = Row::load(weight[1]);
   const Row here = Row::all(0) - (before + after);
-  Extent first(Row::all(HUGE_VAL), Row::all(-HUGE_VAL)), second = first;
+  const Row of_rows = Row::all(alpha), of_lanes = Row::all(beta);
+  Extent extent(Row::all(HUGE_VAL), Row::all(-HUGE_VAL));
   for (int i = 0; i < N; ++i) {
-    const Row previous = Row::load_unaligned(memory + 8 * (i + 1) - 1);
-    const Row lanes = previous * before + b[i] * here + next[i] * after;
-    Row rows = b[i] * Row::all(2 * i / n - 1);
-    if (i > 0) rows = rows + b[i - 1] * Row::all(-i / n);
-    if (i < N - 1) rows = rows + b[i + 1] * Row::all(1 - i / n);
-    first.add(rows * Row::all(y[0][0]) + lanes * Row::all(y[0][1]));
-    second.add(rows * Row::all(y[1][0]) + lanes * Row::all(y[1][1]));
+    const Row lanes = net.previous(i) * before + net.here(i) * here + net.next(i) * after;
+    Row rows = net.here(i) * Row::all(2 * i / n - 1);
+    if (i > 0) rows = rows + net.here(i - 1) * Row::all(-i / n);
+    if (i < N - 1) rows = rows + net.here(i + 1) * Row::all(1 - i / n);
+    extent.add(rows * of_rows + lanes * of_lanes);
   }
-  const Extent* extents[2] = {&first, &second};
-  for (int k = 0; k < 2; ++k) {
-    Extent extent = *extents[k];
-    extent.keep_lanes(N);
-    const Extremes e = extent.extremes();
-    const double alpha = y[k][0] < 0 ? -y[k][0] : y[k][0], beta = y[k][1] < 0 ? -y[k][1] : y[k][1];
-    // Weights, products and sums round; derivatives are at most 2 M. (Infinite where one of the
-    // coefficients overflows.)
-    const double rounding = (4 * magnitude * (alpha + beta)) * (8 * 0x1p-53);
-    const double r = (alpha * radius[0] + beta * radius[1] + rounding) * (1 + 0x1p-40) + 0x1p-1000;
-    if (e.lo > r || e.hi < -r) return true;
+  extent.keep_lanes(N);
+  return extent.extremes();
+}
+
+/// Whether one of the derivatives keeps a sign, or one of the two combinations of them that the
+/// mean Hessian's adjugate suggests, as far as its signs at the corners leave it possible.
+/// `radius`: of the differences, across rows and lanes, rounding included. `variation`: how much
+/// they change.
+template <int N>
+HWY_INLINE bool excludes(const Net& net, double magnitude, const double* radius,
+                         double* variation) {
+  const CornerSlopes slopes = corner_slopes<N>(net);
+  const auto &r = slopes.rows, &l = slopes.lanes;
+  if (agree(r)) {
+    Extent extent(Row::load(net[1].data()) - Row::load(net[0].data()));
+    for (int i = 1; i + 1 < N; ++i)
+      extent.add(Row::load(net[i + 1].data()) - Row::load(net[i].data()));
+    if (beyond(extent.extremes(), radius[0])) return true;
   }
+  // Means of second derivatives, about.
+  const double rows_twice = (r[2] - r[0]) + (r[3] - r[1]),
+               lanes_twice = (l[1] - l[0]) + (l[3] - l[2]);
+  const double mixed =
+      (2.0 / (N - 1)) * ((net[N - 1][N - 1] - net[N - 1][0]) - (net[0][N - 1] - net[0][0]));
+  const double y[2][2] = {{lanes_twice, -mixed}, {-mixed, rows_twice}};
+  std::array<double, 4> corners[2];
+  for (int k = 0; k < 2; ++k)
+    for (int c = 0; c < 4; ++c) corners[k][c] = y[k][0] * r[c] + y[k][1] * l[c];
+  const bool some[3] = {agree(l), agree(corners[0]), agree(corners[1])};
+  if (some[0] || some[1] || some[2]) {
+    const Neighbours<N> neighbours(net);
+    if (some[0]) {
+      Extent extent(neighbours.next(0) - neighbours.here(0));
+      for (int i = 1; i < N; ++i) extent.add(neighbours.next(i) - neighbours.here(i));
+      extent.keep_lanes(N - 1);
+      if (beyond(extent.extremes(), radius[1])) return true;
+    }
+    for (int k = 0; k < 2; ++k) {
+      if (!some[1 + k]) continue;
+      const Extremes e = combine_slopes(neighbours, y[k][0], y[k][1]);
+      const double alpha = y[k][0] < 0 ? -y[k][0] : y[k][0],
+                   beta = y[k][1] < 0 ? -y[k][1] : y[k][1];
+      // Weights, products and sums round; derivatives are at most 2 M. (Infinite where one of the
+      // coefficients overflows.)
+      const double rounding = (4 * magnitude * (alpha + beta)) * (8 * 0x1p-53);
+      if (beyond(e, (alpha * radius[0] + beta * radius[1] + rounding) * (1 + 0x1p-40) + 0x1p-1000))
+        return true;
+    }
+  }
+  variation[0] = largest(r);
+  variation[1] = largest(l);
   return false;
 }
 
@@ -244,11 +289,9 @@ HWY_INLINE void with_count(int count, Run run) {
   }
 }
 
-Extremes expand_patch(const double* a, int degree, const double* xs, const double* ys,
-                      const Interpolation& table, Net* net) {
+Extremes bernstein_patch(const double* from, const ChebyshevTable& table, Net* net) {
   Extremes result{};
-  with_count(table.count,
-             [&]<int N>() HWY_ATTR { result = expand_net<N>(a, degree, xs, ys, table, net); });
+  with_count(table.count, [&]<int N>() HWY_ATTR { result = bernstein_net<N>(from, table, net); });
   return result;
 }
 
@@ -268,10 +311,10 @@ void halve_patch(const Net& net, int count, bool along_lanes, double radius, Net
 }
 
 bool test_gradient(const Net& net, int count, double magnitude, const double* radius,
-                   Extremes* slope) {
+                   double* variation) {
   bool result = false;
-  with_count(count, [&]<int N>()
-                        HWY_ATTR { result = combine_gradient<N>(net, magnitude, radius, slope); });
+  with_count(count,
+             [&]<int N>() HWY_ATTR { result = excludes<N>(net, magnitude, radius, variation); });
   return result;
 }
 
@@ -286,7 +329,7 @@ HWY_AFTER_NAMESPACE();
 namespace encase {
 namespace {
 
-HWY_EXPORT(expand_patch);
+HWY_EXPORT(bernstein_patch);
 HWY_EXPORT(halve_patch);
 HWY_EXPORT(test_gradient);
 HWY_EXPORT(second_derivatives);
@@ -349,6 +392,31 @@ Interpolation make_interpolation(int count) {
   return table;
 }
 
+/// By T_(k+1) = 2 s T_k - T_(k-1), in rational arithmetic.
+ChebyshevTable make_chebyshev_table(int count) {
+  ChebyshevTable table;
+  table.count = count;
+  std::vector<std::vector<Rational>> t{{1}, {-1, 1}};
+  const auto raised = [](const std::vector<Rational>& p) { return product(p, 1, 1); };
+  while (static_cast<int>(t.size()) < count) {
+    const std::vector<Rational> before = raised(raised(t[t.size() - 2]));
+    std::vector<Rational> next = product(t.back(), -2, 2);
+    for (std::size_t j = 0; j < next.size(); ++j) next[j] -= before[j];
+    t.push_back(std::move(next));
+  }
+  for (int k = 0; k < count; ++k) {
+    std::vector<Rational> column = t[k];
+    while (static_cast<int>(column.size()) < count) column = raised(column);
+    Integer choose = 1;
+    for (int j = 0; j < count; ++j) {
+      table.matrix[j][k] = nearest_double(column[j] / Rational(choose));
+      table.largest = std::max(table.largest, std::fabs(table.matrix[j][k]) * kUp);
+      choose = choose * (count - 1 - j) / (j + 1);
+    }
+  }
+  return table;
+}
+
 /// Every coefficient of a net may be off by `change`.
 void add_rounding(Patch* patch, double change) {
   const double n = patch->count - 1;
@@ -400,109 +468,51 @@ const Interpolation& interpolation(int count) {
   }
 }
 
-const InterpolationLoss& interpolation_loss(int k) {
-  // s^k minus its interpolant is w(s) h(s), where w is the product of (s - node), and h is the
-  // complete homogeneous polynomial of degree k - 8 in s and the nodes. The nodes come in pairs
-  // +-x, so that h = sum of e_j s^(k-8-2j) with e_j that of degree j in the squares: all
-  // coefficients are positive, and h and its derivatives are largest at 1. w is Chebyshev's T_8 /
-  // 128 but for the rounding of the nodes: its derivatives are at most 64/128 and 1344/128.
-  static const auto table = [] {
-    std::array<InterpolationLoss, Tile::kMaxDegree + 1> losses{};
-    const auto node = chebyshev_nodes(8);
-    std::array<double, 4> e{1, 0, 0, 0};
-    for (int i = 0; i < 4; ++i)
-      for (int j = 1; j < 4; ++j) e[j] += e[j - 1] * node[i] * node[i];
-    for (int power = 8; power <= Tile::kMaxDegree; ++power) {
-      double h = 0, slope = 0, bend = 0;
-      for (int j = 0; 2 * j <= power - 8; ++j) {
-        const double m = power - 8 - 2 * j;
-        h += e[j];
-        slope += e[j] * m;
-        bend += e[j] * m * (m - 1);
-      }
-      constexpr double w = 1.0 / 128, w1 = 64.0 / 128, w2 = 1344.0 / 128, up = 1.00001;
-      losses[power] = {w * h * up, (w1 * h + w * slope) * up,
-                       (w2 * h + 2 * w1 * slope + w * bend) * up};
-    }
-    return losses;
-  }();
-  return table[k];
-}
-
-int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
-
-InterpolationLoss interpolation_loss(const Tile& tile, double part) {
-  // By the kind of loss and the power.
-  static const auto weights = [] {
-    std::array<std::array<double, 8>, 3> w;
-    for (int k = 0; k < 8; ++k) {
-      const InterpolationLoss& power = interpolation_loss(8 + k);
-      w[0][k] = power.value;
-      w[1][k] = power.slope;
-      w[2][k] = power.bend;
-    }
-    return w;
-  }();
-  if (tile.degree < 8) return {0, 0, 0};
-  const double square = part * part, fourth = square * square;
-  double power = fourth * fourth * kUp;
-  std::array<double, 3> sum{0, 0, 0};
-  for (int k = 0; k < 8; ++k, power *= part) {
-    const double size = tile.high_terms[k] * power;
-    for (int i = 0; i < 3; ++i) sum[i] += size * weights[i][k];
-  }
-  return {sum[0], sum[1], sum[2]};
-}
-
 namespace {
 
-/// What `expand` says of a net in any basis.
-struct Expanded {
-  Extremes extremes;
-  Point<2> part;           ///< the half widths of the box in the coordinates of the tile
-  InterpolationLoss loss;  ///< by the low degree
-  double rounding;         ///< of every coefficient
-};
-Expanded expand_with(const Interpolation& table, const Tile& tile, const Box<2>& box,
-                     std::array<std::array<double, 8>, 8>* net) {
-  Expanded e;
-  // (HWY_ALIGN is that of the scalar path here.)
-  alignas(64) std::array<std::array<double, 8>, 2> at;
-  for (int i = 0; i < 2; ++i) {
-    const Centered chart = centered(box.lo[i], box.hi[i]);
-    const double origin = (chart.center - tile.center[i]) / tile.half[i];
-    e.part[i] = chart.half / tile.half[i];
-    for (int k = 0; k < 8; ++k) at[i][k] = origin + e.part[i] * table.node[k];
-  }
-  e.extremes = HWY_DYNAMIC_DISPATCH(expand_patch)(tile.a[0].data(), tile.degree, at[0].data(),
-                                                  at[1].data(), table, net);
-  e.loss = interpolation_loss(tile, std::max(e.part[0], e.part[1]) * kUp);
-  // Samples: Horner's rule twice, at points that are off by less than 2^-50; then two matrix
-  // products.
-  const double n = tile.degree;
-  const double sample = 1.01 * kUnit * (4 * n + 2) * tile.sum + 0x1p-49 * tile.slope;
-  const double products = 1.01 * kUnit * 2 * (table.count + 2) * tile.sum;
-  e.rounding = table.norm * table.norm * (sample + products) * kUp + kTiny;
-  return e;
+const ChebyshevTable& chebyshev_table(int count) {
+  static const std::vector<ChebyshevTable> tables = [] {
+    std::vector<ChebyshevTable> all(Patch::kMaxCount + 1);
+    for (int n = 2; n <= Patch::kMaxCount; ++n) all[n] = make_chebyshev_table(n);
+    return all;
+  }();
+  return tables[count];
 }
 
 }  // namespace
 
+int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
+
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
-  const Expanded e = expand_with(interpolation(count), tile, box, &patch->b);
-  const Point<2>& part = e.part;
-  const InterpolationLoss& loss = e.loss;
+  CubicSource source;
+  expand(tile, box, &source);
+  const ChebyshevTable& table = chebyshev_table(count);
+  const Extremes extremes =
+      HWY_DYNAMIC_DISPATCH(bernstein_patch)(source.c[0].data(), table, &patch->b);
   patch->count = count;
-  patch->rows_axis = 0;
-  patch->lo = e.extremes.lo;
-  patch->hi = e.extremes.hi;
-  // The loss by the low degree and the tile's own error, in the coordinates of the box.
-  patch->radius = loss.value + tile.error;
-  for (int i = 0; i < 2; ++i) patch->slope_radius[i] = loss.slope + tile.slope_error * part[i];
-  patch->bend_radius = {loss.bend + tile.bend_error * part[0] * part[0],
-                        loss.bend + tile.bend_error * part[1] * part[1],
-                        loss.bend + tile.bend_error * part[0] * part[1]};
-  add_rounding(patch, e.rounding);
+  patch->rows_axis = 1 - source.rows_axis;
+  patch->lo = extremes.lo;
+  patch->hi = extremes.hi;
+  patch->radius = source.radius;
+  patch->left_out = source.left_out;
+  // T_k'' is at most (k^2 - 1)/3 times as large as T_k' may be, k <= 15; and of two variables one
+  // has a degree of at most 7.
+  constexpr double kBend = (15 * 15 - 1) / 3.0, kMixed = 7 * 7;
+  const Point<2>& slope = source.slope_radius;
+  const double rounding = 15 * 15 * kBend * (tile.sum * 0x1p-45 + kTiny);
+  Point<2> part;
+  for (int i = 0; i < 2; ++i) part[i] = centered(box.lo[i], box.hi[i]).half / tile.half[i] * kUp;
+  for (int i = 0; i < 2; ++i) {
+    const int axis = i == 0 ? patch->rows_axis : 1 - patch->rows_axis;
+    patch->slope_radius[i] = slope[axis];
+    patch->bend_radius[i] =
+        (kBend * slope[axis] + tile.bend_error * part[axis] * part[axis] + rounding) * kUp;
+  }
+  patch->bend_radius[2] =
+      (kMixed * (slope[0] + slope[1]) + tile.bend_error * part[0] * part[1] + rounding) * kUp;
+  // An entry, a product and at most four sums round, in either variable.
+  add_rounding(patch,
+               1.01 * kUnit * 12 * table.largest * table.largest * source.size * kUp + kTiny);
 }
 
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper) {
@@ -563,13 +573,12 @@ CriticalVerdict test_critical(const Patch& patch) {
   std::array<double, 2> radius;
   for (int i = 0; i < 2; ++i)
     radius[i] = (patch.slope_radius[i] / factor + 4 * kUnit * patch.magnitude()) * kUp + kTiny;
-  Extremes slope[2];
+  double variation[2];
   verdict.excluded = HWY_DYNAMIC_DISPATCH(test_gradient)(patch.b, patch.count, patch.magnitude(),
-                                                         radius.data(), slope);
+                                                         radius.data(), variation);
   if (verdict.excluded) return verdict;
   for (int i = 0; i < 2; ++i)
-    verdict.variation[i == 0 ? patch.rows_axis : 1 - patch.rows_axis] =
-        std::max(-slope[i].lo, slope[i].hi);
+    verdict.variation[i == 0 ? patch.rows_axis : 1 - patch.rows_axis] = variation[i];
   const auto sign = patch.sign();
   verdict.excluded = sign && no_extremum(patch, *sign);
   return verdict;

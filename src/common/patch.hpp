@@ -26,6 +26,7 @@ struct Patch {
   double radius = 0;
   std::array<double, 2> slope_radius{};
   std::array<double, 3> bend_radius{};
+  double left_out = 0;  ///< what `expand` has left out of the value, by the low degree
 
   /// The sign f is proved to have on the closed box.
   std::optional<Sign> sign() const {
@@ -51,17 +52,6 @@ const Interpolation& interpolation(int count);
 
 /// The number of coefficients in either variable that patches of polynomials up to a degree have.
 int patch_count(int degree);
-
-/// What replacing a monomial s^k, k >= 8, by its interpolant of degree 7 costs on [-1,1]: bounds on
-/// the difference and its first two derivatives.
-struct InterpolationLoss {
-  double value, slope, bend;
-};
-const InterpolationLoss& interpolation_loss(int k);
-
-/// The same for a tile's polynomial on parts of its rectangle with half widths up to the fraction
-/// `part` of the tile's, in the coordinates of the part.
-InterpolationLoss interpolation_loss(const Tile& tile, double part);
 
 /// The patch with `count` coefficients in either variable (at least patch_count of the tile's
 /// degree) on a box inside the tile's rectangle, rows along x.

@@ -407,30 +407,19 @@ inline bool is_settled(const TiledFunction& f, const CubicSource& source) {
   return !f.polynomial().is_polynomial() && source.has_sign();
 }
 
-/// Whether nets on a part of a tile's rectangle would be too far from the tile's polynomial by
-/// their low degree.
-inline bool hopeless(const Tile& tile, double part, int, const Patch&) {
-  double size = 0;
-  for (int k = 0; k <= 2; ++k)
-    for (int l = 0; k + l <= 2; ++l) size += std::fabs(tile.a[k][l]);
-  return interpolation_loss(tile, part).slope > 0x1p-4 * size;
-}
-/// (Sources tell by themselves how far they are; it is tried on every other level.)
-inline bool hopeless(const Tile& tile, double, int level, const CubicSource&) {
-  return tile.degree > 7 && level % 2 == 1;
-}
+/// Whether a net on the box is not worth trying. (Nets tell by themselves how far they are; of high
+/// degrees they are tried on every other level.)
+inline bool hopeless(const Tile& tile, int level) { return tile.degree > 7 && level % 2 == 1; }
 
-/// What a net lacks by its low degree, of values.
-inline double left_out(const Patch&, const Tile& tile, double part) {
-  return interpolation_loss(tile, part).value;
+/// Whether a smaller box should have the first net.
+inline bool too_large(const Patch& patch, int level) {
+  return coarse(patch, level) && patch.left_out > 0.5 * patch.radius;
 }
-inline double left_out(const CubicSource& source, const Tile&, double) { return source.left_out; }
-
-/// Whether a smaller box should have the first net: what a source lacks must not matter on parts of
-/// its box, the more of which there are the larger it is.
-inline bool too_large(const Patch&, double, int) { return false; }
-inline bool too_large(const CubicSource& source, double lost, int level) {
-  return lost > std::ldexp(source.size, std::min(-10, level - 18)) && lost > 0.5 * source.radius;
+/// (What a source lacks must not matter on parts of its box, the more of which there are the larger
+/// it is.)
+inline bool too_large(const CubicSource& source, int level) {
+  return source.left_out > std::ldexp(source.size, std::min(-10, level - 18)) &&
+         source.left_out > 0.5 * source.radius;
 }
 
 /// Whether a net says anything of a function.
@@ -530,14 +519,13 @@ bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile
     const double part = std::max(parts[0], parts[1]);
     if (part > 1.01) return false;
     const bool within = holds(*tile, node.box);
-    if (!*used && hopeless(*tile, part, node.level, *net)) return false;
+    if (!*used && hopeless(*tile, node.level)) return false;
     if (within) {
       make(*tile);
-      const double lost = left_out(*net, *tile, part);
-      if (!*used && too_large(*net, lost, node.level)) return false;
+      if (!*used && too_large(*net, node.level)) return false;
       *used = tile;
       // What is lost by the low degree shrinks with the box.
-      if (!coarse(*net, node.level) || lost > 0.5 * net->radius) return true;
+      if (!coarse(*net, node.level) || net->left_out > 0.5 * net->radius) return true;
     }
   }
   // A tile of the box's own, in double-doubles, then in MPFR.

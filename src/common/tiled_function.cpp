@@ -54,13 +54,24 @@ bool is_quarter(const Box<2>& box, int upper, const Point<2>& center, const Poin
   return true;
 }
 
+/// The part of s^k on [-1,1] that belongs to Chebyshev's polynomials of degrees above 7, at most:
+/// s^k is 2^(1-k) times the sum of (k over i) T_(k-2i), over k - 2i > 0 (and half of that for 0).
+double beyond_degree_7(int k) {
+  double sum = 0, choose = 1;
+  for (int i = 0; k - 2 * i > 7; ++i) {
+    sum += choose;
+    choose = choose * (k - i) / (i + 1);
+  }
+  return std::ldexp(sum, 1 - k);
+}
+
 /// Whether the tile serves for the whole rectangle: its terms of higher degree do not matter, and
 /// patches some times smaller than the rectangle keep close to it. `tolerated`: beside the others.
 bool tile_serves(const Tile& tile, double dropped, double tolerated) {
   if (tile.undefined) return true;
   static const auto weights = [] {
     std::array<double, 8> w;
-    for (int k = 0; k < 8; ++k) w[k] = std::ldexp(interpolation_loss(8 + k).value, -2 * (8 + k));
+    for (int k = 0; k < 8; ++k) w[k] = std::ldexp(beyond_degree_7(8 + k), -2 * (8 + k));
     return w;
   }();
   double size = 0;

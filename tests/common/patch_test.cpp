@@ -242,36 +242,5 @@ TEST(CriticalPatch, BoxesWithALocalMaximumOrASingularPointAreKept) {
   EXPECT_GT(dropped, 100);
 }
 
-TEST(InterpolationLoss, BoundsThePowers) {
-  // s^k less its interpolant at the nodes of a patch, sampled; and its derivatives by differences.
-  for (int k = 8; k <= Tile::kMaxDegree; ++k) {
-    Kernel kernel;
-    const FilteredFunction<2> f(written::polynomial<2>("x^" + std::to_string(k)));
-    const Box<2> box{{-1, -1}, {1, 1}};
-    TiledFunction tiled(f, box, kernel);
-    Tile tile;
-    tiled.expand(box, 53, &tile);
-    Patch patch;
-    expand(tile, box, 8, &patch);
-    const InterpolationLoss& loss = interpolation_loss(k);
-    const Exact exact(f);
-    double value = 0, slope = 0, bend = 0;
-    for (int m = -64; m <= 64; ++m) {
-      const RationalPoint<2> s{Rational(m, 64), Rational(0)};
-      const Jet2 a = exact.at(box, s), b = jet(patch, s);
-      value = std::max(value, std::fabs(Rational(a.value - b.value).get_d()));
-      slope = std::max(slope, std::fabs(Rational(a.x - b.x).get_d()));
-      bend = std::max(bend, std::fabs(Rational(a.xx - b.xx).get_d()));
-    }
-    EXPECT_LE(value, loss.value + 1e-12);
-    EXPECT_LE(slope, loss.slope + 1e-11);
-    EXPECT_LE(bend, loss.bend + 1e-9);
-    // Largest at the ends, where the bounds are sharp.
-    EXPECT_GT(value, 0.95 * loss.value);
-    EXPECT_GT(slope, 0.95 * loss.slope);
-    EXPECT_GT(bend, 0.95 * loss.bend);
-  }
-}
-
 }  // namespace
 }  // namespace encase
