@@ -124,8 +124,8 @@ void cut_off_nets(const double* f, const double* g, double* to, PairedExtremes* 
 /// Sums of the rows up to `last` with eight columns of a matrix.
 HWY_INLINE void combine_rows(const Row* rows, int last, const double* matrix, Row* result) {
   Row sum[8];
-  for (int k = 0; k < 8; ++k) sum[k] = Row::all(0);
-  for (int i = 0; i <= last; ++i) {
+  for (int k = 0; k < 8; ++k) sum[k] = rows[0] * Row::all(matrix[k]);
+  for (int i = 1; i <= last; ++i) {
     const Row row = rows[i];
     for (int k = 0; k < 8; ++k) sum[k] = sum[k] + row * Row::all(matrix[Powers::kRow * i + k]);
   }
@@ -180,8 +180,10 @@ void expand_powers(const double* a, int degree, const double* of_x, const double
 /// T_k.
 template <int N>
 HWY_INLINE void substitute_rows(const double* m, Row* c) {
+#pragma GCC unroll 8
   for (int k = 0; k < N; ++k) {
     Row sum = c[k] * Row::all(m[8 * k + k]);
+#pragma GCC unroll 8
     for (int i = k + 1; i < N; ++i) sum = sum + c[i] * Row::all(m[8 * i + k]);
     c[k] = sum;
   }
