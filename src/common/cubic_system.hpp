@@ -12,23 +12,6 @@
 /// docs/error-bounds.md derives their radii.
 namespace encase {
 
-/// A polynomial on a box, in the box's coordinates [-1,1]^2, from which cubic nets on the box and
-/// its parts are made: a tensor Chebyshev net of degree 7.
-struct CubicSource {
-  alignas(64) std::array<std::array<double, 8>, 8> c;
-  int rows_axis;          ///< whose Chebyshev polynomials the rows belong to (0: x)
-  int count;              ///< of rows and lanes; all others are zero
-  double size;            ///< at least the sum of the coefficients' absolute values
-  double left_out;        ///< the part of the radius that is due to terms of higher degree
-  double radius;          ///< bounds the distance of values
-  Point<2> slope_radius;  ///< bounds on the distance of partial derivatives, in x and y
-
-  /// The polynomial is proved to have a sign on the closed box.
-  bool has_sign() const;
-};
-/// On a box inside the tile's rectangle.
-void expand(const Tile& tile, const Box<2>& box, CubicSource* source);
-
 /// Two polynomials on a box, in the box's coordinates [-1,1]^2: tensor Bernstein nets of degree 3,
 /// and how far the polynomials may be from them. Row i has the coefficients of the first polynomial
 /// in the lanes 0 to 3, those of the second one in the lanes 4 to 7.
@@ -56,14 +39,6 @@ inline Chart chart_of(const Box<2>& box) {
   return {centered(box.lo[0], box.hi[0]), centered(box.lo[1], box.hi[1])};
 }
 Part part_of(const Chart& chart, const Box<2>& box);
-
-/// The cubic nets of the sources, which lie alike, on their box: terms of higher degree are left
-/// out.
-void cut_off(const std::array<CubicSource, 2>& sources, CubicSystem* system);
-
-/// The sources on a part of their box, and the cubic nets there, as above. `to` may not be `from`.
-void restrict_to(const std::array<CubicSource, 2>& from, const Part& part,
-                 std::array<CubicSource, 2>* to, CubicSystem* system);
 
 /// Cubic nets on a part of the box of others.
 void restrict_to(const CubicSystem& from, const Part& part, CubicSystem* system);

@@ -17,8 +17,8 @@ namespace {
 constexpr double kQuality = 0.8;
 constexpr double kUp = 1 + 0x1p-40;
 constexpr int kCloserLooks = 3;
-constexpr double kSmallPart = 0.25;  // of a box's area
-constexpr int kSimpleLevels = 16;    // of halvings, after which most crossings are told apart
+constexpr double kSmallPart = 0.4;  // of a box's area
+constexpr int kSimpleLevels = 16;   // of halvings, after which most crossings are told apart
 
 /// The distance to the next double away from zero, and towards it.
 double ulp(double x) {
@@ -77,7 +77,8 @@ class PlaneRoots {
   std::optional<Enclosure> tight_box(const Tiles& tiles, const Box<2>& around,
                                      Approximation a) const;
   std::optional<Enclosure> tight_box_at(const Tiles& tiles, const Box<2>& around,
-                                        const Approximation& a, Point<2>* d) const;
+                                        const Approximation& a, Point<2>* d,
+                                        bool* improvable) const;
   void look(const PlaneSubdivision<2>::Node& node, const CubicSystem& last, const Box<2>& last_box,
             const Box<2>& box, CubicSystem* net);
   std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
@@ -149,11 +150,13 @@ std::optional<PlaneRoots::Approximation> PlaneRoots::newton(const Tiles& tiles, 
 /// A box some units in the last place wide around the zero near a.x, from one precise value there:
 /// with Y the inverse of the Jacobian J0 known at a point nearby, and |J - J0| bounded on
 /// X = a.x +- reach, every zero z in X has |z - (a.x - Y F(a.x))| <= E reach, E = |I - Y J|; if
-/// that is inside X there is one. (docs/error-bounds.md, section 5.)
+/// that is inside X there is one. (docs/error-bounds.md, section 5.) `improvable`: a closer point
+/// might make it narrower.
 std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles,
                                                               const Box<2>& around,
                                                               const Approximation& a,
-                                                              Point<2>* step) const {
+                                                              Point<2>* step,
+                                                              bool* improvable) const {
   const Matrix<2>& j = a.jacobian;
   const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
   if (!(std::fabs(determinant) > 0x1p-900)) return std::nullopt;  // its products may underflow
@@ -195,6 +198,7 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
   const double off =
       0x1p-50 * (std::fabs(j[0][0] * j[1][1]) + std::fabs(j[0][1] * j[1][0])) * std::fabs(scale);
   Point<2> image;
+  *improvable = false;
   for (int k = 0; k < 2; ++k) {
     image[k] = error[k];
     for (int m = 0; m < 2; ++m) {
@@ -202,8 +206,10 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
       for (int i = 0; i < 2; ++i) e += std::fabs(y[k][i]) * spread[i][m];
       image[k] += (e + off) * reach[m] * kUp;
     }
-    if (!((std::fabs(d[k]) + image[k]) * kUp < reach[k])) return std::nullopt;
+    *improvable = *improvable || image[k] > 1.5 * error[k];
   }
+  for (int k = 0; k < 2; ++k)
+    if (!((std::fabs(d[k]) + image[k]) * kUp < reach[k])) return std::nullopt;
   Box<2> box;
   bool nearest = true;
   for (int k = 0; k < 2; ++k) {
@@ -232,8 +238,10 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box(const Tiles& tiles, c
                                                            Approximation a) const {
   for (int round = 0;; ++round) {
     Point<2> d{};
-    const auto enclosure = tight_box_at(tiles, around, a, &d);
-    if (round == 2 || (enclosure && enclosure->rounded && narrow(enclosure->box))) return enclosure;
+    bool improvable = true;
+    const auto enclosure = tight_box_at(tiles, around, a, &d, &improvable);
+    if (round == 2 || !improvable || (enclosure && enclosure->rounded && narrow(enclosure->box)))
+      return enclosure;
     const auto step = newton_step(tiles, a.x, nullptr);
     if (!step) return enclosure;
     a = {{a.x[0] - d[0], a.x[1] - d[1]}, a.x, step->jacobian};

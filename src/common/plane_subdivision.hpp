@@ -12,7 +12,7 @@
 
 #include "common/analytic_gaps.hpp"
 #include "common/box_tests.hpp"
-#include "common/cubic_system.hpp"
+#include "common/cubic_source.hpp"
 #include "common/patch.hpp"
 #include "common/sought.hpp"
 #include "common/subdivision.hpp"
@@ -79,8 +79,9 @@ class PlaneSubdivision {
     std::conditional_t<N == 1, Patch, CubicSystem> net;
     /// The tiles that the net comes from. Their rectangles contain the box.
     std::array<const Tile*, N> tile{};
-    int expanded_at = 0;              ///< the level of the box that the patch was made for
-    const CubicBase* base = nullptr;  ///< on a box that contains this one
+    int expanded_at = 0;                   ///< the level of the box that the patch was made for
+    const CubicBase* base = nullptr;       ///< on a box that contains this one
+    std::array<std::int64_t, 2> number{};  ///< of this part of that one (common/cubic_source.hpp)
     /// The part, in the box's coordinates, outside of which nothing that is sought lies. A visitor
     /// may set it; halves that do not meet it are settled as excluded.
     Box<2> part;
@@ -273,6 +274,9 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int bu
     first.tile = second.tile;
     first.expanded_at = second.expanded_at;
     first.base = second.base;
+    first.number = second.number;
+    first.number[axis] = number_of_half(second.number[axis], false);
+    second.number[axis] = number_of_half(second.number[axis], true);
     first.level = ++second.level;
     first.inside = second.inside;
     first.has_net = second.has_net;
@@ -446,6 +450,7 @@ template <>
 inline bool PlaneSubdivision<2>::use_base(Node& node, CubicBase* base) {
   base->chart = chart_of(node.box);
   node.base = base;
+  node.number = {1, 1};
   node.has_net = true;
   node.excluded = node.net.excluded();
   return node.excluded || !coarse(node.net, node.level);
@@ -477,11 +482,15 @@ inline bool PlaneSubdivision<2>::restrict_base(Node& node) {
   const CubicBase& from = *node.base;
   CubicBase& base = bases_[node.level - first_level_];
   if (&base == &from) return false;
-  const Part part = part_of(from.chart, node.box);
+  const double half = std::max(node.box.width(0) / (2 * from.chart[0].half),
+                               node.box.width(1) / (2 * from.chart[1].half));
   if (node.level <= kUsualLevels)
     for (const CubicSource& source : from.source)
-      if (source.radius > 0.1 * source.size * std::max(part.half[0], part.half[1])) return false;
-  restrict_to(from.source, part, &base.source, &node.net);
+      if (source.radius > 0.1 * source.size * half) return false;
+  if (node.number[0] > 0 && node.number[1] > 0)
+    restrict_to(from.source, node.number, &base.source, &node.net);
+  else
+    restrict_to(from.source, part_of(from.chart, node.box), &base.source, &node.net);
   base.tile = from.tile;
   base.expanded_at = from.expanded_at;
   return use_base(node, &base);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Cubic nets of two polynomials against rational arithmetic.
-#include "common/cubic_system.hpp"
+#include "common/cubic_source.hpp"
 
 #include <gtest/gtest.h>
 
