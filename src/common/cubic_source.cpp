@@ -391,9 +391,8 @@ void restrict_to(const std::array<CubicSource, 2>& from, const std::array<const 
   NetSums sums;
   CubicSource *f = &(*to)[0], *g = &(*to)[1];
   HWY_DYNAMIC_DISPATCH(restrict_nets)
-  (std::max(from[0].count, from[1].count), from[0].c[0].data(), from[1].c[0].data(),
-   matrix[rows], matrix[lanes], f->c[0].data(), g->c[0].data(), system->b[0].data(), &extremes,
-   &sums);
+  (std::max(from[0].count, from[1].count), from[0].c[0].data(), from[1].c[0].data(), matrix[rows],
+   matrix[lanes], f->c[0].data(), g->c[0].data(), system->b[0].data(), &extremes, &sums);
   for (int k = 0; k < 2; ++k) {
     CubicSource& source = (*to)[k];
     const double rounding = from[k].size * 0x1p-41 + kTiny;

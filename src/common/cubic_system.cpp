@@ -114,7 +114,7 @@ Part part_of(const Chart& chart, const Box<2>& box) {
 }
 
 void restrict_to(const CubicSystem& from, const Part& part, CubicSystem* system) {
-  const Interpolation& table = interpolation(4);
+  const Interpolation& table = cubic_interpolation();
   alignas(64) std::array<double, 8> nodes;
   const std::array<int, 2> axis{from.rows_axis, 1 - from.rows_axis};
   for (int i = 0; i < 2; ++i)

@@ -17,8 +17,8 @@ namespace {
 constexpr double kQuality = 0.8;
 constexpr double kUp = 1 + 0x1p-40;
 constexpr int kCloserLooks = 3;
-constexpr double kSmallPart = 0.25;  // of a box's area
-constexpr int kSimpleLevels = 16;    // of halvings, after which most crossings are told apart
+constexpr double kSmallPart = 0.4;  // of a box's area
+constexpr int kSimpleLevels = 16;   // of halvings, after which most crossings are told apart
 
 /// The distance to the next double away from zero, and towards it.
 double ulp(double x) {

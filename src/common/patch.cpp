@@ -350,29 +350,17 @@ std::vector<Rational> product(const std::vector<Rational>& p, const Rational& mi
   return result;
 }
 
-/// The nodes, symmetric; the last one repeated.
-std::array<double, 8> chebyshev_nodes(int count) {
-  std::array<double, 8> node;
-  const int n = count - 1;
-  for (int k = 0; k < 8; ++k) {
-    const int index = std::min(k, n), mirror = n - index;
-    const double x = std::cos(std::numbers::pi * (2 * std::min(index, mirror) + 1) / (2 * count));
-    node[k] = index == mirror ? 0.0 : index < mirror ? -x : x;
-  }
-  return node;
-}
-
 /// The coefficients on [-1,1] of the polynomials that are 1 at one node and 0 at the others:
-/// products of linear factors, exactly, then rounded.
-Interpolation make_interpolation(int count) {
+/// products of linear factors, exactly, then rounded. (The nodes are symmetric.)
+Interpolation make_cubic_interpolation() {
+  constexpr int n = 3;
   Interpolation table;
-  table.count = count;
-  table.node = chebyshev_nodes(count);
-  const int n = count - 1;
-  std::vector<Rational> norms(count, Rational(0));
-  for (int k = 0; k < count; ++k) {
+  for (int k = 0; k <= n; ++k)
+    table.node[k] = k < 2 ? -std::cos(std::numbers::pi * (2 * k + 1) / 8) : -table.node[n - k];
+  std::array<Rational, n + 1> norms;
+  for (int k = 0; k <= n; ++k) {
     std::vector<Rational> of_node{Rational(1)};
-    for (int m = 0; m < count; ++m) {
+    for (int m = 0; m <= n; ++m) {
       if (m == k) continue;
       const Rational step = Rational(table.node[k]) - Rational(table.node[m]);
       of_node = product(of_node, (-1 - Rational(table.node[m])) / step,
@@ -386,8 +374,6 @@ Interpolation make_interpolation(int count) {
       choose = choose * (n - j) / (j + 1);
     }
   }
-  for (int k = 0; k < count; ++k)
-    for (int j = 0; j < 8; ++j) table.by_lane[k][j] = table.matrix[std::min(j, n)][k];
   for (const Rational& norm : norms) table.norm = std::max(table.norm, norm.get_d() * kUp);
   return table;
 }
@@ -443,33 +429,6 @@ Extremes widened(const Extremes& e, double factor, double radius) {
 namespace {
 
 /// Tables are made when they are first asked for: rational arithmetic takes its time.
-template <int count>
-const Interpolation& interpolation_of() {
-  static const Interpolation table = make_interpolation(count);
-  return table;
-}
-
-}  // namespace
-
-const Interpolation& interpolation(int count) {
-  switch (count) {
-    case 3:
-      return interpolation_of<3>();
-    case 4:
-      return interpolation_of<4>();
-    case 5:
-      return interpolation_of<5>();
-    case 6:
-      return interpolation_of<6>();
-    case 7:
-      return interpolation_of<7>();
-    default:
-      return interpolation_of<8>();
-  }
-}
-
-namespace {
-
 const ChebyshevTable& chebyshev_table(int count) {
   static const std::vector<ChebyshevTable> tables = [] {
     std::vector<ChebyshevTable> all(Patch::kMaxCount + 1);
@@ -480,6 +439,11 @@ const ChebyshevTable& chebyshev_table(int count) {
 }
 
 }  // namespace
+
+const Interpolation& cubic_interpolation() {
+  static const Interpolation table = make_cubic_interpolation();
+  return table;
+}
 
 int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
 

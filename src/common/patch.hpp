@@ -37,18 +37,14 @@ struct Patch {
   double magnitude() const { return hi > -lo ? hi : -lo; }
 };
 
-/// Interpolation at the nodes of Chebyshev, and from there to Bernstein coefficients: constants.
+/// Interpolation at four nodes of Chebyshev, and from there to Bernstein coefficients: constants.
 struct Interpolation {
-  int count = 0;
-  alignas(64) std::array<double, 8> node{};
-  /// coefficient j = sum over k of matrix[j][k] value(node[k]); by_lane[k] holds column k, its last
-  /// entry repeated.
-  std::array<std::array<double, 8>, 8> matrix{};
-  alignas(64) std::array<std::array<double, 8>, 8> by_lane{};
+  std::array<double, 4> node{};
+  /// coefficient j = sum over k of matrix[j][k] value(node[k])
+  std::array<std::array<double, 8>, 4> matrix{};
   double norm = 0;  ///< at least the sums of absolute values of the exact matrix' rows
 };
-/// To 3 to 8 Bernstein coefficients.
-const Interpolation& interpolation(int count);
+const Interpolation& cubic_interpolation();
 
 /// The number of coefficients in either variable that patches of polynomials up to a degree have.
 int patch_count(int degree);

@@ -79,8 +79,8 @@ class PlaneSubdivision {
     std::conditional_t<N == 1, Patch, CubicSystem> net;
     /// The tiles that the net comes from. Their rectangles contain the box.
     std::array<const Tile*, N> tile{};
-    int expanded_at = 0;              ///< the level of the box that the patch was made for
-    const CubicBase* base = nullptr;  ///< on a box that contains this one
+    int expanded_at = 0;                   ///< the level of the box that the patch was made for
+    const CubicBase* base = nullptr;       ///< on a box that contains this one
     std::array<std::int64_t, 2> number{};  ///< of this part of that one (common/cubic_source.hpp)
     /// The part, in the box's coordinates, outside of which nothing that is sought lies. A visitor
     /// may set it; halves that do not meet it are settled as excluded.

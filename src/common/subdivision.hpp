@@ -214,15 +214,17 @@ template <int D>
 std::vector<Box<D>> leaves(const Box<D>& root, const std::vector<int>& tokens, int token) {
   std::vector<Box<D>> result, stack{root};
   for (const int t : tokens) {
-    const Box<D> box = stack.back();
-    stack.pop_back();
     if (t <= cover::kSplitX && t >= cover::kSplitZ) {
-      Box<D> lower, upper;
-      halve_box(box, cover::kSplitX - t, &lower, &upper);
-      stack.push_back(upper);
-      stack.push_back(lower);
-    } else if (t == token) {
-      result.push_back(box);
+      // (That the cut is exact has been seen when it was made.)
+      const int axis = cover::kSplitX - t;
+      const Box<D> box = stack.back();
+      const double cut = box.lo[axis] + 0.5 * (box.hi[axis] - box.lo[axis]);
+      stack.back().lo[axis] = cut;
+      stack.push_back(box);
+      stack.back().hi[axis] = cut;
+    } else {
+      if (t == token) result.push_back(stack.back());
+      stack.pop_back();
     }
   }
   return result;

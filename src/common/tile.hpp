@@ -43,9 +43,9 @@ struct Tile {
   double bend_error = 0;   ///< the second derivatives of e on the rectangle
   double value_error = 0;  ///< of TiledFunction::value on the rectangle
   bool undefined = false;  ///< f is proved to have no value anywhere on the rectangle
-  /// For what is lost where the polynomial of the tile is replaced, on a part of the rectangle, by
-  /// its interpolant of degree 7 in either variable (common/patch.hpp): entry k bounds the sums of
-  /// the absolute values of the terms with s_0^(8+k), and with s_1^(8+k), around any point.
+  /// For a guess at what nets of degree 7 in either variable lack on parts of the rectangle: entry
+  /// k bounds the sums of the absolute values of the terms with s_0^(8+k), and with s_1^(8+k),
+  /// around any point.
   std::array<double, kMaxDegree - 7> high_terms{};
 };
 
