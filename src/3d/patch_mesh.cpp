@@ -161,8 +161,11 @@ bool PatchMesh::split(int t, int edge, std::vector<int>* changed) {
   const FieldChart::Line line = chart_.line(0.5 * (coordinates_[a] + coordinates_[b]));
   const Point<3> middle = 0.5 * (at(a) + at(b));
   Point<3> point;
-  if (!lift(line, dot(middle - line.at, line.along), &point) || crowds_boundary(point))
+  if (!lift(line, dot(middle - line.at, line.along), &point)) {
+    blame_boundary(t);  // between its points the surface may leave the cell
     return false;
+  }
+  if (crowds_boundary(point)) return false;
   points_.push_back(point);
   const int m = add(static_cast<int>(points_.size()) - 1);
   if (!(positive(a, m, c) && positive(m, b, c) && positive(b, m, d) && positive(m, a, d))) {
@@ -246,7 +249,8 @@ int PatchMesh::chord_of(const Triangle& t) const {
   return -1;
 }
 
-/// At the middle of the longest edge, unless that is one of the boundary; of a chord, if it has one.
+/// At the middle of the longest edge, unless that is one of the boundary; of a chord, if it has
+/// one.
 void PatchMesh::divide(int t, std::vector<int>* changed) {
   const std::array<int, 3>& corners = triangles_[t].corners;
   int longest = 0;
@@ -268,10 +272,18 @@ void PatchMesh::divide(int t, std::vector<int>* changed) {
   const auto [a, b, c] = corners;
   const bool flat = is_flat(at(a), at(b), at(c));
   const bool flat_in_chart = is_flat(coordinates_[a], coordinates_[b], coordinates_[c]);
+  if (triangles_[t].neighbours[longest] < 0 || flat_in_chart)
+    blame_boundary(t);
+  else if (!flat)
+    split(t, longest, changed);
+}
+
+/// A triangle's edges on the boundary are too long.
+void PatchMesh::blame_boundary(int t) {
+  const Triangle& triangle = triangles_[t];
   for (int i = 0; i < 3; ++i)
-    if (triangles_[t].neighbours[i] < 0 && (i == longest || flat_in_chart))
-      too_long_.emplace_back(ids_[corners[i]], ids_[corners[(i + 1) % 3]]);
-  if (triangles_[t].neighbours[longest] >= 0 && !flat && !flat_in_chart) split(t, longest, changed);
+    if (triangle.neighbours[i] < 0)
+      too_long_.emplace_back(ids_[triangle.corners[i]], ids_[triangle.corners[(i + 1) % 3]]);
 }
 
 /// The triangle a b c on an edge a b of the boundary becomes a m c and m b c.

@@ -71,6 +71,7 @@ class PatchMesh {
   int chord_of(const Triangle& triangle) const;
   bool lift(const FieldChart::Line& line, double guess, Point<3>* point) const;
   bool crowds_boundary(const Point<3>& point);
+  void blame_boundary(int triangle);
   void divide(int triangle, std::vector<int>* changed);
   bool split(int triangle, int edge, std::vector<int>* changed);
   bool wants_flip(int triangle, int edge) const;
