@@ -146,7 +146,7 @@ std::string mesh_report(const SurfaceEncasement& e, const std::vector<SurfaceMes
                    mesh.complete ? "" : ", incomplete");
     if (std::isfinite(mesh.distance_to_mesh))
       fmt::format_to(out, "; all of the surface within {:.2e} of it{}\n", mesh.distance_to_mesh,
-                     mesh.isotopic ? ", isotopic" : "");
+                     mesh.isotopic ? ", to which it is isotopic" : "");
     else
       text += "; its distance from all of the surface is not proved\n";
   }

@@ -35,6 +35,9 @@ struct SurfaceMesh {
   /// Proved: an isotopy of the region used, along which its sides stay as they are and no point of
   /// the mesh goes farther than `distance_to_mesh`, takes the mesh to the surface in it.
   bool isotopic = false;
+  /// Proved: in cells in which the surface does not meet another one, its triangles do not meet
+  /// those of that one.
+  bool apart = false;
   int euler = 0;                 ///< points - edges + triangles
   bool within_tolerance = true;  ///< distances and angles are at most what was asked
   /// Every cell that may meet the surface is certified and has its patches here.
@@ -63,5 +66,9 @@ Result<std::vector<SurfaceMesh>> mesh(const SurfaceEncasement& encasement,
 /// the region's boundary or next to cells that are not certified; Euler's characteristic is that of
 /// the patches; and all distances, both ways, and angles are proved again.
 std::string check(const SurfaceMesh& mesh, const SurfaceEncasement& encasement);
+
+/// What contradicts any of the meshes of an encasement's surfaces; and those said to be apart are
+/// proved so again.
+std::string check(const std::vector<SurfaceMesh>& meshes, const SurfaceEncasement& encasement);
 
 }  // namespace encase

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -9,6 +10,7 @@
 
 #include "3d/mesh_cover.hpp"
 #include "3d/triangle_bounds.hpp"
+#include "3d/triangles_apart.hpp"
 #include "encase/surface_mesh.hpp"
 #include "encase/surface_topology.hpp"
 
@@ -91,7 +93,45 @@ std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
   return "";
 }
 
+bool have_an_arc(const SpaceCell& cell, int surface, int other) {
+  const std::array<int, 2> pair{std::min(surface, other), std::max(surface, other)};
+  return std::any_of(cell.arcs.begin(), cell.arcs.end(),
+                     [&](const SurfaceArc& arc) { return arc.surfaces == pair; });
+}
+
+/// Whether triangles of two meshes do not meet in cells in which the surfaces do not.
+bool are_apart(const SurfaceMesh& mesh, const SurfaceMesh& other, const SurfaceEncasement& e) {
+  std::vector<Point<3>> points = mesh.points;
+  points.insert(points.end(), other.points.begin(), other.points.end());
+  const int offset = static_cast<int>(mesh.points.size());
+  std::vector<std::vector<std::array<int, 3>>> triangles(e.cells.size());
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+    triangles[mesh.cells[k]].push_back(mesh.triangles[k]);
+  std::vector<int> first;
+  for (const auto& of_cell : triangles) first.push_back(static_cast<int>(of_cell.size()));
+  for (std::size_t k = 0; k < other.triangles.size(); ++k) {
+    const auto& [p, q, r] = other.triangles[k];
+    triangles[other.cells[k]].push_back({p + offset, q + offset, r + offset});
+  }
+  const double margin = 0x1p-40 * e.region_used.bounding_box().largest_width();
+  for (std::size_t c = 0; c < e.cells.size(); ++c)
+    if (!have_an_arc(e.cells[c], mesh.surface, other.surface) &&
+        !near_triangles(points, triangles[c], margin, first[c]).empty())
+      return false;
+  return true;
+}
+
 }  // namespace
+
+std::string check(const std::vector<SurfaceMesh>& meshes, const SurfaceEncasement& encasement) {
+  for (const SurfaceMesh& mesh : meshes)
+    if (std::string objection = check(mesh, encasement); !objection.empty()) return objection;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    for (std::size_t j = i + 1; j < meshes.size(); ++j)
+      if (meshes[i].apart && meshes[j].apart && !are_apart(meshes[i], meshes[j], encasement))
+        return "that meshes are apart where the surfaces are is not proved";
+  return "";
+}
 
 std::string check(const SurfaceMesh& mesh, const SurfaceEncasement& encasement) {
   const std::size_t count = mesh.triangles.size();

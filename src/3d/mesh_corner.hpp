@@ -48,6 +48,8 @@ class MeshCorners {
   double near() const { return 0x1p-44 * size_; }
   /// From such points to where they would lie exactly, at most.
   double moved() const { return 0x1p-40 * size_; }
+  /// Triangles farther apart than this are so wherever their corners are moved.
+  double margin() const { return 4 * moved(); }
 
  private:
   /// A unit normal that points outward.

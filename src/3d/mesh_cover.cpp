@@ -177,7 +177,7 @@ bool covers_surface(const SurfaceMesh& mesh, const SurfaceEncasement& encasement
 }
 
 bool is_embedded(const SurfaceMesh& mesh, const MeshCorners& maker) {
-  return !find_near_triangles(mesh.points, mesh.triangles, 4 * maker.moved());
+  return near_triangles(mesh.points, mesh.triangles, maker.margin()).empty();
 }
 
 }  // namespace encase

@@ -36,6 +36,12 @@ int PatchMesh::add(int id) {
   return static_cast<int>(ids_.size()) - 1;
 }
 
+Box<3> PatchMesh::box() const {
+  Box<3> box{corners_.front().at, corners_.front().at};
+  for (const Corner& corner : corners_) box = hull(box, {corner.at, corner.at});
+  return box;
+}
+
 void PatchMesh::join_neighbours() {
   std::map<std::pair<int, int>, int> side;
   for (std::size_t t = 0; t < triangles_.size(); ++t)
@@ -59,7 +65,7 @@ bool PatchMesh::fill(const std::vector<int>& boundary) {
   for (std::size_t k = 0; k < boundary.size(); ++k)
     boundary_.emplace_back(boundary[k], boundary[(k + 1) % boundary.size()]);
   for (const auto& corners : cut_ears(plane, polygon))
-    triangles_.push_back({corners, {-1, -1, -1}, {}, false});
+    triangles_.push_back({corners, {-1, -1, -1}, {}});
   join_neighbours();
   std::vector<int> all, changed;
   for (std::size_t t = 0; t < triangles_.size(); ++t) all.push_back(static_cast<int>(t));
@@ -91,7 +97,7 @@ bool PatchMesh::surround(const Box<3>& cell) {
     std::array<int, 3> corners = {corner[octant & 1], corner[2 + (octant >> 1 & 1)],
                                   corner[4 + (octant >> 2 & 1)]};
     if (!positive(corners[0], corners[1], corners[2])) std::swap(corners[0], corners[1]);
-    triangles_.push_back({corners, {-1, -1, -1}, {}, false});
+    triangles_.push_back({corners, {-1, -1, -1}, {}});
   }
   join_neighbours();
   return true;
@@ -161,8 +167,11 @@ bool PatchMesh::split(int t, int edge, std::vector<int>* changed) {
   const FieldChart::Line line = chart_.line(0.5 * (coordinates_[a] + coordinates_[b]));
   const Point<3> middle = 0.5 * (at(a) + at(b));
   Point<3> point;
-  if (!lift(line, dot(middle - line.at, line.along), &point) || crowds_boundary(point))
+  if (!lift(line, dot(middle - line.at, line.along), &point)) {
+    blame_boundary(t);  // between its points the surface may leave the cell
     return false;
+  }
+  if (crowds_boundary(point)) return false;
   points_.push_back(point);
   const int m = add(static_cast<int>(points_.size()) - 1);
   if (!(positive(a, m, c) && positive(m, b, c) && positive(b, m, d) && positive(m, a, d))) {
@@ -177,10 +186,10 @@ bool PatchMesh::split(int t, int edge, std::vector<int>* changed) {
   const int beyond_ad = triangles_[u].neighbours[(other + 1) % 3];
   const int beyond_db = triangles_[u].neighbours[(other + 2) % 3];
   const int t2 = static_cast<int>(triangles_.size()), u2 = t2 + 1;
-  triangles_[t] = {{a, m, c}, {u2, t2, beyond_ca}, {}, false};
-  triangles_[u] = {{b, m, d}, {t2, u2, beyond_db}, {}, false};
-  triangles_.push_back({{m, b, c}, {u, beyond_bc, t}, {}, false});
-  triangles_.push_back({{m, a, d}, {t, beyond_ad, u}, {}, false});
+  triangles_[t] = {{a, m, c}, {u2, t2, beyond_ca}, {}};
+  triangles_[u] = {{b, m, d}, {t2, u2, beyond_db}, {}};
+  triangles_.push_back({{m, b, c}, {u, beyond_bc, t}, {}});
+  triangles_.push_back({{m, a, d}, {t, beyond_ad, u}, {}});
   replace_neighbour(beyond_bc, t, t2);
   replace_neighbour(beyond_ad, u, u2);
   changed->insert(changed->end(), {t, u, t2, u2});
@@ -211,8 +220,8 @@ void PatchMesh::flip(int t, int edge) {
   const int beyond_ca = triangles_[t].neighbours[(edge + 2) % 3];
   const int beyond_ad = triangles_[u].neighbours[(other + 1) % 3];
   const int beyond_db = triangles_[u].neighbours[(other + 2) % 3];
-  triangles_[t] = {{a, d, c}, {beyond_ad, u, beyond_ca}, {}, false};
-  triangles_[u] = {{d, b, c}, {beyond_db, beyond_bc, t}, {}, false};
+  triangles_[t] = {{a, d, c}, {beyond_ad, u, beyond_ca}, {}};
+  triangles_[u] = {{d, b, c}, {beyond_db, beyond_bc, t}, {}};
   replace_neighbour(beyond_ad, u, t);
   replace_neighbour(beyond_bc, t, u);
 }
@@ -246,7 +255,8 @@ int PatchMesh::chord_of(const Triangle& t) const {
   return -1;
 }
 
-/// At the middle of the longest edge, unless that is one of the boundary; of a chord, if it has one.
+/// At the middle of the longest edge, unless that is one of the boundary; of a chord, if it has
+/// one.
 void PatchMesh::divide(int t, std::vector<int>* changed) {
   const std::array<int, 3>& corners = triangles_[t].corners;
   int longest = 0;
@@ -268,10 +278,18 @@ void PatchMesh::divide(int t, std::vector<int>* changed) {
   const auto [a, b, c] = corners;
   const bool flat = is_flat(at(a), at(b), at(c));
   const bool flat_in_chart = is_flat(coordinates_[a], coordinates_[b], coordinates_[c]);
+  if (triangles_[t].neighbours[longest] < 0 || flat_in_chart)
+    blame_boundary(t);
+  else if (!flat)
+    split(t, longest, changed);
+}
+
+/// A triangle's edges on the boundary are too long.
+void PatchMesh::blame_boundary(int t) {
+  const Triangle& triangle = triangles_[t];
   for (int i = 0; i < 3; ++i)
-    if (triangles_[t].neighbours[i] < 0 && (i == longest || flat_in_chart))
-      too_long_.emplace_back(ids_[corners[i]], ids_[corners[(i + 1) % 3]]);
-  if (triangles_[t].neighbours[longest] >= 0 && !flat && !flat_in_chart) split(t, longest, changed);
+    if (triangle.neighbours[i] < 0)
+      too_long_.emplace_back(ids_[triangle.corners[i]], ids_[triangle.corners[(i + 1) % 3]]);
 }
 
 /// The triangle a b c on an edge a b of the boundary becomes a m c and m b c.
@@ -293,8 +311,8 @@ bool PatchMesh::divide_boundary(const std::map<std::pair<int, int>, int>& middle
       const int beyond_bc = triangles_[t].neighbours[(edge + 1) % 3];
       const int beyond_ca = triangles_[t].neighbours[(edge + 2) % 3];
       const int t2 = static_cast<int>(triangles_.size());
-      triangles_[t] = {{a, m, c}, {-1, t2, beyond_ca}, {}, false};
-      triangles_.push_back({{m, b, c}, {-1, beyond_bc, t}, {}, false});
+      triangles_[t] = {{a, m, c}, {-1, t2, beyond_ca}, {}};
+      triangles_.push_back({{m, b, c}, {-1, beyond_bc, t}, {}});
       replace_neighbour(beyond_bc, t, t2);
       changed.insert(changed.end(), {t, t2});
       edge = 0;
@@ -324,7 +342,7 @@ void PatchMesh::refine(int most) {
   }
   const auto good = [&](const Triangle& t) {
     return t.bounds.distance <= goal_.tolerance && t.bounds.angle <= goal_.angle &&
-           t.bounds.way <= goal_.tolerance && chord_of(t) < 0;
+           t.bounds.way <= goal_.tolerance && chord_of(t) < 0 && !t.too_large;
   };
   for (std::size_t next = 0; next < work.size(); ++next) {
     Triangle& t = triangles_[work[next]];

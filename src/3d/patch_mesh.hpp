@@ -27,6 +27,7 @@ class PatchMesh {
     std::array<int, 3> neighbours;  ///< across the edge from corner i to the next; -1: none
     TriangleBounds bounds;
     bool given_up = false;
+    bool too_large = false;  ///< whatever is proved of it
   };
 
   /// `points` is added to; all but the chart are to outlive this. The lines of the chart meet the
@@ -55,6 +56,10 @@ class PatchMesh {
   void refine(int most);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// To be divided when this is refined again.
+  void find_too_large(int triangle) { triangles_[triangle].too_large = true; }
+  /// The smallest one that contains it.
+  Box<3> box() const;
   /// A corner's place in the list of points.
   int point(int corner) const { return ids_[corner]; }
   const Corner& corner(int corner) const { return corners_[corner]; }
@@ -71,6 +76,7 @@ class PatchMesh {
   int chord_of(const Triangle& triangle) const;
   bool lift(const FieldChart::Line& line, double guess, Point<3>* point) const;
   bool crowds_boundary(const Point<3>& point);
+  void blame_boundary(int triangle);
   void divide(int triangle, std::vector<int>* changed);
   bool split(int triangle, int edge, std::vector<int>* changed);
   bool wants_flip(int triangle, int edge) const;

@@ -13,14 +13,15 @@
 #include "3d/mesh_cover.hpp"
 #include "3d/patch_mesh.hpp"
 #include "3d/space_vectors.hpp"
+#include "3d/triangles_apart.hpp"
 #include "encase/surface_topology.hpp"
 
 namespace encase {
 
 namespace {
 
-/// How often boundaries are refined where patches need it.
-constexpr int kMaxRounds = 32;
+/// How often patches are refined for what is around them.
+constexpr int kMaxRounds = 64;
 
 class Mesher {
  public:
@@ -44,6 +45,7 @@ class Mesher {
   }
 
   Result<std::vector<SurfaceMesh>> meshes() {
+    apart_.assign(functions_.size(), false);
     for (int round = 0; round < kMaxRounds; ++round) {
       for (std::size_t k = 0; k < patches_.size(); ++k) {
         if (!patches_[k].stale) continue;
@@ -51,7 +53,7 @@ class Mesher {
           return Error{Error::Code::Undecided, "the meshing was cancelled"};
         make(&patches_[k]);
       }
-      if (!divide_lines()) break;
+      if (!divide_lines() && !find_crossing_triangles()) break;
     }
     std::vector<SurfaceMesh> result;
     for (int s = 0; s < static_cast<int>(encasement_.surfaces.size()); ++s)
@@ -66,10 +68,17 @@ class Mesher {
     const GraphCertificate* graph = nullptr;
     bool stale = true;
     bool failed = false;
+    bool fresh = false;  ///< has new triangles, not yet compared with those of others
     std::unique_ptr<PatchMesh> mesh;
     /// Points to be put between two points of its boundary, which are given ascending.
     std::map<std::pair<int, int>, int> middles;
   };
+
+  Box<3> box_of(const std::array<int, 3>& corners) const {
+    const auto& [a, b, c] = corners;
+    return hull(hull(Box<3>{points_[a], points_[a]}, {points_[b], points_[b]}),
+                {points_[c], points_[c]});
+  }
 
   bool cancelled(double done) const {
     return options_.progress && !options_.progress("meshing", done);
@@ -102,6 +111,7 @@ class Mesher {
 
   void make(Patch* patch) {
     patch->stale = false;
+    patch->fresh = true;
     const int before = patch->mesh ? static_cast<int>(patch->mesh->triangles().size()) : 0;
     if (!patch->mesh || !patch->mesh->divide_boundary(patch->middles)) begin(patch);
     patch->middles.clear();
@@ -151,6 +161,63 @@ class Mesher {
     return divided && left_ > 0;
   }
 
+  /// Where patches that share no arc cross each other all the same; false if none do.
+  bool find_crossing_triangles() {
+    bool found = false;
+    apart_.assign(functions_.size(), true);
+    for (std::size_t begin = 0, end; begin < patches_.size(); begin = end) {
+      for (end = begin; end < patches_.size() && patches_[end].cell == patches_[begin].cell;) ++end;
+      const SpaceCell& cell = encasement_.cells[patches_[begin].cell];
+      const auto meet = [&](const Patch& a, const Patch& b) {
+        return std::any_of(cell.arcs.begin(), cell.arcs.end(), [&](const SurfaceArc& arc) {
+          const auto lies_on = [&](const Patch& patch) {
+            return &cell.patches[arc.patches[0]] == patch.patch ||
+                   &cell.patches[arc.patches[1]] == patch.patch;
+          };
+          return lies_on(a) && lies_on(b);
+        });
+      };
+      for (std::size_t a = begin; a < end; ++a)
+        for (std::size_t b = a + 1; b < end; ++b)
+          if (!meet(patches_[a], patches_[b]))
+            found = keep_apart(&patches_[a], &patches_[b]) || found;
+    }
+    for (Patch& patch : patches_) patch.fresh = false;
+    return found && left_ > 0;
+  }
+
+  /// Whether triangles of two patches are to be divided as they are not proved to be apart.
+  bool keep_apart(Patch* a, Patch* b) {
+    if (a->failed || b->failed || !(a->fresh || b->fresh)) return false;
+    const double margin = corners_.front().margin();
+    const Box<3> around = inflated(a->mesh->box(), margin),
+                 other = inflated(b->mesh->box(), margin);
+    if (!around.meets(other)) return false;
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<std::pair<Patch*, int>> owners;
+    int first = 0;
+    for (Patch* patch : {a, b}) {
+      const std::vector<PatchMesh::Triangle>& all = patch->mesh->triangles();
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        std::array<int, 3> corners;
+        for (int i = 0; i < 3; ++i) corners[i] = patch->mesh->point(all[k].corners[i]);
+        const Box<3> box = box_of(corners);
+        if (!box.meets(around) || !box.meets(other)) continue;
+        triangles.push_back(corners);
+        owners.emplace_back(patch, static_cast<int>(k));
+      }
+      if (patch == a) first = static_cast<int>(triangles.size());
+    }
+    const TrianglePairs near = near_triangles(points_, triangles, margin, first);
+    for (const auto& [i, j] : near)
+      for (const int t : {i, j}) {
+        owners[t].first->mesh->find_too_large(owners[t].second);
+        owners[t].first->stale = true;
+        apart_[owners[t].first->patch->surface] = false;
+      }
+    return !near.empty();
+  }
+
   SurfaceMesh assemble(int surface) {
     SurfaceMesh mesh;
     mesh.surface = surface;
@@ -189,6 +256,7 @@ class Mesher {
     mesh.euler = static_cast<int>(mesh.points.size()) - static_cast<int>(edges.size()) +
                  static_cast<int>(mesh.triangles.size());
     mesh.within_tolerance = mesh.distance <= options_.tolerance && mesh.angle <= options_.angle;
+    mesh.apart = mesh.complete && apart_[surface];
     if (covers_surface(mesh, encasement_, corners_[surface], corners, way)) {
       mesh.distance_to_mesh = way;
       mesh.isotopic = is_embedded(mesh, corners_[surface]);
@@ -209,6 +277,7 @@ class Mesher {
   std::unique_ptr<FacetLines> lines_;
   std::vector<Patch> patches_;
   std::vector<std::vector<int>> users_;  ///< the patches along every line
+  std::vector<bool> apart_;              ///< of every surface
 };
 
 }  // namespace

@@ -50,11 +50,10 @@ bool share_a_corner(const std::array<int, 3>& a, const std::array<int, 3>& b) {
                      [&](int p) { return p == b[0] || p == b[1] || p == b[2]; });
 }
 
-}  // namespace
-
-std::optional<std::pair<int, int>> find_near_triangles(
-    const std::vector<Point<3>>& points, const std::vector<std::array<int, 3>>& triangles,
-    double margin) {
+template <class Compared>
+TrianglePairs find(const std::vector<Point<3>>& points,
+                   const std::vector<std::array<int, 3>>& triangles, double margin,
+                   const Compared& compared) {
   std::vector<Box<3>> boxes;
   boxes.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) {
@@ -66,17 +65,30 @@ std::optional<std::pair<int, int>> find_near_triangles(
     }
     boxes.push_back(box);
   }
-  std::optional<std::pair<int, int>> found;
+  TrianglePairs found;
   BoxTree(boxes).for_each_meeting_pair([&](int i, int j) {
-    if (found || share_a_corner(triangles[i], triangles[j])) return;
+    if (!compared(i, j) || share_a_corner(triangles[i], triangles[j])) return;
     const Point<3>& origin = points[triangles[i][0]];
     const auto corners = [&](int t) -> Triangle {
       return {points[triangles[t][0]] - origin, points[triangles[t][1]] - origin,
               points[triangles[t][2]] - origin};
     };
-    if (!apart(corners(i), corners(j), margin)) found = {i, j};
+    if (!apart(corners(i), corners(j), margin)) found.emplace_back(i, j);
   });
   return found;
+}
+
+}  // namespace
+
+TrianglePairs near_triangles(const std::vector<Point<3>>& points,
+                             const std::vector<std::array<int, 3>>& triangles, double margin) {
+  return find(points, triangles, margin, [](int, int) { return true; });
+}
+
+TrianglePairs near_triangles(const std::vector<Point<3>>& points,
+                             const std::vector<std::array<int, 3>>& triangles, double margin,
+                             int first) {
+  return find(points, triangles, margin, [&](int i, int j) { return i < first && first <= j; });
 }
 
 }  // namespace encase

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -10,11 +9,17 @@
 
 namespace encase {
 
-/// Two triangles that share no corner and are not proved to be farther than `margin` apart, by
-/// their places in the list; nothing if there are none: any two are proved to be. The margin is
-/// at least 2^-44 of the largest distance between points. Cost: about two microseconds a triangle.
-std::optional<std::pair<int, int>> find_near_triangles(
-    const std::vector<Point<3>>& points, const std::vector<std::array<int, 3>>& triangles,
-    double margin);
+using TrianglePairs = std::vector<std::pair<int, int>>;
+
+/// All pairs of triangles that share no corner and are not proved to be farther than `margin`
+/// apart, by their places in the list. The margin is at least 2^-44 of the largest distance between
+/// points. Cost: about a microsecond a triangle.
+TrianglePairs near_triangles(const std::vector<Point<3>>& points,
+                             const std::vector<std::array<int, 3>>& triangles, double margin);
+
+/// Those of one of the first triangles, as many as `first` says, and one of the others.
+TrianglePairs near_triangles(const std::vector<Point<3>>& points,
+                             const std::vector<std::array<int, 3>>& triangles, double margin,
+                             int first);
 
 }  // namespace encase

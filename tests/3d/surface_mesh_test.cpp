@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "3d/space_vectors.hpp"
 #include "encase/surface_topology.hpp"
@@ -63,6 +64,40 @@ TEST(SurfaceMesh, OfSurfacesCutByOthersIsGlued) {
   EXPECT_NEAR(area(meshes[0]), 4 * M_PI, 0.1);
   // A plane over a square: x grows by 7 for each 1 of z.
   EXPECT_NEAR(area(meshes[1]), 16 * std::sqrt(1 + 1.0 / 49), 1e-6);
+}
+
+TEST(SurfaceMesh, OfOneSurfaceDoesNotMeetThatOfAnother) {
+  // Spheres at distances from 0.0042 to 0.006, with triangles that could be 0.05 off.
+  const SurfaceEncasement e =
+      encased_surfaces({"x^2+y^2+z^2-1", "x^2+(y-1/1000)^2+z^2-1-1/100-1/5000"}, 2);
+  const std::vector<SurfaceMesh> meshes = meshes_of(e, 0.05);
+  EXPECT_TRUE(meshes[0].apart);
+  EXPECT_TRUE(meshes[1].apart);
+  EXPECT_EQ(check(meshes, e), "");
+  // With as many triangles as one of them needs alone they would meet.
+  const SurfaceEncasement one = encased_surfaces({"x^2+y^2+z^2-1"}, 2);
+  const SurfaceMesh coarse = meshes_of(one, 0.05)[0];
+  EXPECT_LT(coarse.triangles.size(), meshes[0].triangles.size());
+  EXPECT_GT(coarse.distance, 0.005);
+}
+
+TEST(CheckMesh, ObjectsToMeshesThatAreNotApart) {
+  const SurfaceEncasement e =
+      encased_surfaces({"x^2+y^2+z^2-1", "x^2+(y-1/1000)^2+z^2-1-1/100-1/5000"}, 2);
+  // The outer one, said to be the inner one's: each is good for itself with these bounds.
+  std::vector<SurfaceMesh> meshes = meshes_of(e, 0.05);
+  for (SurfaceMesh& mesh : meshes) {
+    mesh.tolerance = mesh.distance = mesh.angle = 0.3;
+    mesh.distance_to_mesh = std::numeric_limits<double>::infinity();
+    mesh.isotopic = false;
+    mesh.distances.assign(mesh.triangles.size(), 0.3);
+    mesh.angles.assign(mesh.triangles.size(), 0.3);
+  }
+  EXPECT_EQ(check(meshes, e), "");
+  for (Point<3>& p : meshes[1].points) p = 0.99 * p;  // across the inner one, a little
+  EXPECT_EQ(check(meshes, e), "that meshes are apart where the surfaces are is not proved");
+  meshes[1].apart = false;
+  EXPECT_EQ(check(meshes, e), "");
 }
 
 TEST(CheckMesh, ObjectsToWhatIsChanged) {

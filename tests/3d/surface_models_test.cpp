@@ -90,10 +90,10 @@ TEST(TriangleBounds, HaveNoWayOutOfTheRegion) {
     Corners corners;
     for (int k = 0; k < 3; ++k) {
       const Point<3> p{a * std::cos(2 * M_PI * k / 3), a * std::sin(2 * M_PI * k / 3), height};
-      corners[k] = {p, kWithin, magnitude(bounds.value(p, Kernel::kDoubleBits)), p, k == 1 ? room : 1.0};
+      corners[k] = {p, kWithin, magnitude(bounds.value(p, Kernel::kDoubleBits)), p,
+                    k == 1 ? room : 1.0};
     }
-    EXPECT_EQ(std::isfinite(bound_triangle(models, corners, 0.01, 0x1p-40).way),
-              room > 1 - height);
+    EXPECT_EQ(std::isfinite(bound_triangle(models, corners, 0.01, 0x1p-40).way), room > 1 - height);
   }
 }
 

@@ -65,6 +65,11 @@ std::optional<bool> meet(const Exact& p, const Exact& q, const std::array<Exact,
   return !(turns.contains(1) && turns.contains(-1));
 }
 
+bool none(const std::vector<Point<3>>& points, const std::vector<std::array<int, 3>>& triangles,
+          double margin) {
+  return near_triangles(points, triangles, margin).empty();
+}
+
 TEST(NearTriangles, AreThoseThatMeet) {
   std::mt19937_64 random(7);
   std::uniform_int_distribution<int> coordinate(0, 6);
@@ -88,8 +93,7 @@ TEST(NearTriangles, AreThoseThatMeet) {
         meeting = meeting || (m && *m);
       }
     if (in_one_plane) continue;
-    const auto near = find_near_triangles(points, {{0, 1, 2}, {3, 4, 5}}, 0x1p-40);
-    EXPECT_EQ(near.has_value(), meeting) << round;
+    EXPECT_EQ(none(points, {{0, 1, 2}, {3, 4, 5}}, 0x1p-40), !meeting) << round;
     ++(meeting ? met : apart);
   }
   EXPECT_GT(met, 300);
@@ -99,18 +103,27 @@ TEST(NearTriangles, AreThoseThatMeet) {
 TEST(NearTriangles, InOnePlaneToo) {
   const std::vector<Point<3>> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0},     {1, 1, 0},
                                      {2, 1, 0}, {1, 2, 0}, {0.5, 0.25, 0}};
-  EXPECT_FALSE(find_near_triangles(points, {{0, 1, 2}, {3, 4, 5}}, 0x1p-40));
-  EXPECT_TRUE(find_near_triangles(points, {{0, 1, 2}, {6, 4, 5}}, 0x1p-40));
+  EXPECT_TRUE(none(points, {{0, 1, 2}, {3, 4, 5}}, 0x1p-40));
+  EXPECT_FALSE(none(points, {{0, 1, 2}, {6, 4, 5}}, 0x1p-40));
   // Those that share a corner are not compared.
-  EXPECT_FALSE(find_near_triangles(points, {{0, 1, 2}, {2, 6, 4}}, 0x1p-40));
+  EXPECT_TRUE(none(points, {{0, 1, 2}, {2, 6, 4}}, 0x1p-40));
+}
+
+TEST(NearTriangles, OfTwoListsAreFound) {
+  const std::vector<Point<3>> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0},   {0, 0, 1},    {1, 0, 1},
+                                     {0, 1, 1}, {0, 0, 2}, {0.2, 0, 0}, {0.2, 1, 0.1}};
+  const std::vector<std::array<int, 3>> triangles{{0, 1, 2}, {6, 7, 8}, {3, 4, 5}};
+  EXPECT_EQ(near_triangles(points, triangles, 0x1p-40), (TrianglePairs{{0, 1}, {1, 2}}));
+  EXPECT_EQ(near_triangles(points, triangles, 0x1p-40, 1), (TrianglePairs{{0, 1}}));
+  EXPECT_EQ(near_triangles(points, triangles, 0x1p-40, 2), (TrianglePairs{{1, 2}}));
 }
 
 TEST(NearTriangles, AreToldApartUpToTheMargin) {
   std::vector<Point<3>> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   for (const double gap : {0x1p-20, 0x1p-30, 0x1p-38}) {
     for (int k = 3; k < 6; ++k) points[k][2] = gap;
-    EXPECT_FALSE(find_near_triangles(points, {{0, 1, 2}, {3, 4, 5}}, gap / 4));
-    EXPECT_TRUE(find_near_triangles(points, {{0, 1, 2}, {3, 4, 5}}, gap));
+    EXPECT_TRUE(none(points, {{0, 1, 2}, {3, 4, 5}}, gap / 4));
+    EXPECT_FALSE(none(points, {{0, 1, 2}, {3, 4, 5}}, gap));
   }
 }
 
