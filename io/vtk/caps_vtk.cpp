@@ -51,15 +51,12 @@ void fill_vertices(const CapsResult& r, VtkTable* table) {
 }  // namespace
 
 Status write_vtk(const CapsResult& result, const std::string& directory) {
-  const auto block = [&](const char* name, VtkRowsOf rows, auto fill) -> VtkBlock {
-    return {name, rows, [&result, fill](VtkTable* table) { fill(result, table); }};
-  };
   using enum VtkRowsOf;
   VtkResult files;
   files.about = field_data_of(name_of(kCapsClasses, result.answer), result.curves);
-  files.blocks = {block("leaves", Primitives, fill_leaves),
-                  block("curves", Primitives, fill_curves),
-                  block("vertices", Points, fill_vertices)};
+  files.blocks = {block_of(result, "leaves", Primitives, fill_leaves),
+                  block_of(result, "curves", Primitives, fill_curves),
+                  block_of(result, "vertices", Points, fill_vertices)};
   return write_multiblock(directory, files);
 }
 

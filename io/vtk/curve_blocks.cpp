@@ -226,8 +226,8 @@ std::vector<Point<2>> cell_corners(const Cell& cell) {
   return points;
 }
 
-Result<CurveScene> make_curve_scene(const Encasement& e, const PlaneChart* chart) {
-  CurveScene scene{e, chart, std::nullopt, {}, {}, {}};
+Result<CurveScene> make_curve_scene(const Encasement& e) {
+  CurveScene scene{e, std::nullopt, {}, {}, {}};
   const double tolerance = kTolerance * e.region_used.bounding_box().largest_width();
   Result<Arrangement> arranged = arrange(e);
   if (!arranged) {
@@ -246,22 +246,16 @@ Result<CurveScene> make_curve_scene(const Encasement& e, const PlaneChart* chart
 }
 
 std::vector<VtkBlock> curve_blocks(const CurveScene& scene) {
-  const auto block = [&](const char* name, VtkRowsOf rows, auto fill) -> VtkBlock {
-    return {name, rows, [&scene, fill](VtkTable* table) {
-              table->place_on(scene.chart);
-              fill(scene, table);
-            }};
-  };
   using enum VtkRowsOf;
-  return {block("cells", Primitives, fill_cells),
-          block("curves", Primitives, fill_curves),
-          block("points", Points, fill_points),
-          block("critical_regions", Primitives, fill_critical_regions),
-          block("unresolved", Primitives, fill_unresolved),
-          block("faces", Primitives, fill_faces),
-          block("edges", Primitives, fill_edges),
-          block("vertices", Points, fill_vertices),
-          block("labels", Points, fill_labels)};
+  return {block_of(scene, "cells", Primitives, fill_cells),
+          block_of(scene, "curves", Primitives, fill_curves),
+          block_of(scene, "points", Points, fill_points),
+          block_of(scene, "critical_regions", Primitives, fill_critical_regions),
+          block_of(scene, "unresolved", Primitives, fill_unresolved),
+          block_of(scene, "faces", Primitives, fill_faces),
+          block_of(scene, "edges", Primitives, fill_edges),
+          block_of(scene, "vertices", Points, fill_vertices),
+          block_of(scene, "labels", Points, fill_labels)};
 }
 
 }  // namespace encase

@@ -17,7 +17,6 @@ namespace encase {
 /// What the blocks show.
 struct CurveScene {
   const Encasement& encasement;
-  const PlaneChart* chart;                 ///< of the plane in which it is; none: z = 0
   std::optional<Arrangement> arrangement;  ///< where the encasement has one
   std::vector<Polyline> edges;             ///< of the arrangement
   PieceComplex pieces;                     ///< of the arrangement
@@ -25,7 +24,7 @@ struct CurveScene {
 };
 
 /// Traces the curves. Internal if the cells are no complex.
-Result<CurveScene> make_curve_scene(const Encasement& encasement, const PlaneChart* chart);
+Result<CurveScene> make_curve_scene(const Encasement& encasement);
 
 /// The scene must outlive them.
 std::vector<VtkBlock> curve_blocks(const CurveScene& scene);

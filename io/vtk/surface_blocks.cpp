@@ -207,17 +207,14 @@ std::vector<std::vector<Point<3>>> facet_polygons(const SurfaceEncasement& encas
 }
 
 std::vector<VtkBlock> surface_blocks(const SurfaceScene& scene) {
-  const auto block = [&](const char* name, VtkRowsOf rows, auto fill) -> VtkBlock {
-    return {name, rows, [&scene, fill](VtkTable* table) { fill(scene, table); }};
-  };
   using enum VtkRowsOf;
-  return {block("cells", Primitives, fill_cells),
-          block("facets", Primitives, fill_facets),
-          block("surfaces", Primitives, fill_surfaces),
-          block("intersection_curves", Primitives, fill_curves),
-          block("points", Points, fill_points),
-          block("critical_regions", Primitives, fill_critical_regions),
-          block("unresolved", Primitives, fill_unresolved)};
+  return {block_of(scene, "cells", Primitives, fill_cells),
+          block_of(scene, "facets", Primitives, fill_facets),
+          block_of(scene, "surfaces", Primitives, fill_surfaces),
+          block_of(scene, "intersection_curves", Primitives, fill_curves),
+          block_of(scene, "points", Points, fill_points),
+          block_of(scene, "critical_regions", Primitives, fill_critical_regions),
+          block_of(scene, "unresolved", Primitives, fill_unresolved)};
 }
 
 void fill_surface_step(const SurfaceEncasement& e,

@@ -35,11 +35,12 @@ void fill_step(const Encasement& e, const std::vector<std::vector<Point<2>>>& po
 /// `chart`: of the plane in which the encasement is; none: z = 0.
 Status write_result(const Encasement& e, const PlaneChart* chart, FieldData about_all,
                     const std::string& directory, bool history) {
-  const Result<CurveScene> scene = make_curve_scene(e, chart);
+  const Result<CurveScene> scene = make_curve_scene(e);
   if (!scene) return scene.error();
   VtkResult files;
   files.about = field_data_of(name_of(kOutcomes, e.outcome), e.input);
   files.about_all = std::move(about_all);
+  files.chart = chart;
   files.blocks = curve_blocks(scene.value());
   if (history)
     files.write_more = [&] {

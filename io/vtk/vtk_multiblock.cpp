@@ -90,6 +90,7 @@ Status write_multiblock(const std::string& directory, const VtkResult& result) {
     AtomicDirectory files = std::move(made).value();
     for (const VtkBlock& block : result.blocks) {
       VtkTable table;
+      table.place_on(result.chart);
       block.fill(&table);
       if (Status bad = write_data_set(table.finish(result.about, block.rows_of), files.temporary(),
                                       std::string(block.name) + ".vtp", directory + "/result"))

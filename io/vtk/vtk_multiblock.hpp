@@ -17,10 +17,19 @@ struct VtkBlock {
   std::function<void(VtkTable*)> fill;
 };
 
+/// A block of what `fill` shows of a scene, which must outlive it.
+template <class Scene>
+VtkBlock block_of(const Scene& scene, const char* name, VtkRowsOf rows_of,
+                  void (*fill)(const Scene&, VtkTable*)) {
+  return {name, rows_of, [&scene, fill](VtkTable* table) { fill(scene, table); }};
+}
+
 /// What is written of a result.
 struct VtkResult {
   FieldData about;        ///< in every file
   FieldData about_all{};  ///< and in the .vtm alone
+  /// Of the plane in whose coordinates points of the plane are; none: z = 0.
+  const PlaneChart* chart = nullptr;
   std::vector<VtkBlock> blocks;
   std::function<Status()> write_more = [] { return Status(); };  ///< of the blocks' directory
 };

@@ -75,6 +75,10 @@ TEST_F(VtkFiles, HoldCellsWithTheirAttributes) {
   ASSERT_EQ(cells->GetNumberOfPolys(), 3);
   EXPECT_EQ(cells->GetPoints()->GetDataType(), VTK_DOUBLE);
   vtkFieldData* data = cells->GetCellData();
+  std::vector<std::string> names;
+  for (int k = 0; k < data->GetNumberOfArrays(); ++k) names.push_back(data->GetArrayName(k));
+  EXPECT_EQ(names, (std::vector<std::string>{"id", "kind", "curve", "curve_name", "crossing",
+                                             "depth", "certified", "sign_circle", "sign_line"}));
   for (int k = 0; k < 3; ++k) EXPECT_EQ(integer(data, "id", k), k);
   EXPECT_EQ(integer(data, "kind", 0), 2);
   EXPECT_EQ(integer(data, "kind", 1), 4);
