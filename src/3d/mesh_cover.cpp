@@ -19,13 +19,21 @@ double determinant(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   return dot(cross(a, b), c);
 }
 
-using HalfEdges = std::set<std::pair<int, int>>;
+using HalfEdge = std::pair<int, int>;
 
-HalfEdges half_edges_of(const SurfaceMesh& mesh) {
-  HalfEdges all;
+/// In order, each once.
+std::vector<HalfEdge> half_edges_of(const SurfaceMesh& mesh) {
+  std::vector<HalfEdge> all;
+  all.reserve(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i) all.emplace(t[i], t[(i + 1) % 3]);
+    for (int i = 0; i < 3; ++i) all.emplace_back(t[i], t[(i + 1) % 3]);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
+}
+
+bool has_twin(const std::vector<HalfEdge>& all, const HalfEdge& edge) {
+  return std::binary_search(all.begin(), all.end(), HalfEdge{edge.second, edge.first});
 }
 
 class Cover {
@@ -54,11 +62,11 @@ class Cover {
   /// Whether the boundary consists of closed lines within the sides that its points are said to lie
   /// in, and nothing else lies in them.
   bool ends_in_sides() const {
-    const HalfEdges half_edges = half_edges_of(mesh_);
+    const std::vector<HalfEdge> half_edges = half_edges_of(mesh_);
     std::vector<int> leaving(mesh_.points.size());
     for (const auto& [a, b] : half_edges) {
       const int side = common_side(corners_[a].sides, corners_[b].sides);
-      const bool on_boundary = !half_edges.contains({b, a});
+      const bool on_boundary = !has_twin(half_edges, {a, b});
       if (on_boundary != (side >= 0)) return false;
       if (!on_boundary) continue;
       if (++leaving[a] > 1 || !is_in(side, mesh_.points[a]) || !is_in(side, mesh_.points[b]))
@@ -148,9 +156,9 @@ class Cover {
 std::optional<std::vector<PointSides>> sides_of_points(const SurfaceMesh& mesh,
                                                        const MeshCorners& corners) {
   std::vector<std::set<int>> found(mesh.points.size());
-  const HalfEdges half_edges = half_edges_of(mesh);
+  const std::vector<HalfEdge> half_edges = half_edges_of(mesh);
   for (const auto& [a, b] : half_edges) {
-    if (half_edges.contains({b, a})) continue;
+    if (has_twin(half_edges, {a, b})) continue;
     bool any = false;
     for (int k = 0; k < corners.side_count(); ++k) {
       if (std::fabs(corners.beyond(k, mesh.points[a])) > corners.near() ||

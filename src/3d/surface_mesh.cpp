@@ -223,8 +223,8 @@ class Mesher {
     mesh.surface = surface;
     mesh.tolerance = options_.tolerance;
     mesh.complete = surface_topology(encasement_)[surface].complete;
-    std::map<int, int> number;
-    std::set<std::pair<int, int>> edges;
+    std::vector<int> number(points_.size(), -1);
+    std::vector<std::pair<int, int>> edges;
     std::vector<Corner> corners;
     double way = 0;
     for (const Patch& patch : patches_) {
@@ -235,15 +235,16 @@ class Mesher {
         std::array<int, 3> triangle;
         for (int i = 0; i < 3; ++i) {
           const int p = patch.mesh->point(t.corners[i]);
-          const auto [place, is_new] = number.emplace(p, static_cast<int>(mesh.points.size()));
-          if (is_new) {
+          if (number[p] < 0) {
+            number[p] = static_cast<int>(mesh.points.size());
             mesh.points.push_back(points_[p]);
             mesh.normals.push_back(unit(functions_[surface].gradient(points_[p])));
             corners.push_back(patch.mesh->corner(t.corners[i]));
           }
-          triangle[i] = place->second;
+          triangle[i] = number[p];
         }
-        for (int i = 0; i < 3; ++i) edges.insert(std::minmax(triangle[i], triangle[(i + 1) % 3]));
+        for (int i = 0; i < 3; ++i)
+          edges.emplace_back(std::minmax(triangle[i], triangle[(i + 1) % 3]));
         mesh.triangles.push_back(triangle);
         mesh.cells.push_back(patch.cell);
         mesh.distances.push_back(t.bounds.distance);
@@ -253,6 +254,8 @@ class Mesher {
         way = std::max(way, t.bounds.way);
       }
     }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     mesh.euler = static_cast<int>(mesh.points.size()) - static_cast<int>(edges.size()) +
                  static_cast<int>(mesh.triangles.size());
     mesh.within_tolerance = mesh.distance <= options_.tolerance && mesh.angle <= options_.angle;

@@ -5,8 +5,10 @@
 
 #include "encase/space_arrangement.hpp"
 #include "encase/surface_encasement.hpp"
+#include "encase/surface_mesh.hpp"
 #include "encase/surface_topology.hpp"
 #include "encase/surfaces_file.hpp"
+#include "random_triples.hpp"
 #include "tetrahedra.hpp"
 #include "written.hpp"
 
@@ -27,6 +29,20 @@ SurfacesFile from_file(const std::string& name) {
   return std::move(file).value();
 }
 
+void expect_isotopic_meshes(const SurfaceEncasement& e) {
+  SurfaceMeshOptions options;
+  options.tolerance = 0.01 * e.region_used.bounding_box().largest_width();
+  const auto meshes = mesh(e, options);
+  ASSERT_TRUE(meshes);
+  EXPECT_EQ(check(meshes.value(), e), "");
+  for (const SurfaceMesh& mesh : meshes.value()) {
+    EXPECT_TRUE(mesh.isotopic);
+    EXPECT_TRUE(mesh.apart);
+    EXPECT_TRUE(mesh.within_tolerance);
+    EXPECT_LE(mesh.distance_to_mesh, options.tolerance);
+  }
+}
+
 /// The one surface of the file, certified: its components and its Euler characteristic, which is
 /// that of a grid of tetrahedra too.
 SurfaceTopology shape_of(const SurfacesFile& file, int grid) {
@@ -42,6 +58,7 @@ SurfaceTopology shape_of(const SurfacesFile& file, int grid) {
   EXPECT_EQ(euler_by_tetrahedra(file.surfaces[0].function.polynomial(),
                                 e.region_used.bounding_box(), grid),
             shape.euler);
+  expect_isotopic_meshes(e);
   return shape;
 }
 
@@ -69,6 +86,14 @@ TEST(KnownSurfaces, ATorusAndFourSpheresAreDivided) {
   EXPECT_EQ(shapes[0].euler, 0);
   for (std::size_t k = 1; k < 5; ++k) EXPECT_EQ(shapes[k].euler, 2);
   EXPECT_TRUE(arrange(e));
+  expect_isotopic_meshes(e);
+}
+
+TEST(KnownSurfaces, RandomCubicsHaveIsotopicMeshes) {
+  for (const int seed : {1, 2}) {
+    const auto triple = named(random_triple(3, seed));
+    expect_isotopic_meshes(encased({{triple.begin(), triple.end()}, cube(1)}));
+  }
 }
 
 }  // namespace
