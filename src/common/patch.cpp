@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "common/cubic_system.hpp"
+#include "common/cubic_source.hpp"
 #include "common/interval.hpp"
 #include "encase/number.hpp"
 
