@@ -14,12 +14,12 @@ constexpr int kMostProjected = 256;  // crossings; of more every other, every th
 // Of more than two curves: crossings from which on a cell is halved whatever the branches of one
 // curve do.
 constexpr int kManyCrossings = 16;
-constexpr int kMaxBisected = 6;    // crossings up to which pairs of them are bisected
+constexpr int kMaxBisected = 6;  // crossings up to which pairs of them are bisected
 constexpr int kMaxBisectedWhenFast = 4;
 constexpr int kBisectedPairs = 3;  // of crossings
 constexpr int kBisectedPairsWhenFast = 2;
-constexpr int kSaddles = 4;        // of a curve
-constexpr int kBranchPairs = 12;   // of boundary points of a curve, on different branches
+constexpr int kSaddles = 4;       // of a curve
+constexpr int kBranchPairs = 12;  // of boundary points of a curve, on different branches
 constexpr int kBranchPairsWhenFast = 6;
 constexpr int kSplitCurves = 4;        // curves the branches of which are told apart
 constexpr int kCurvePairs = 4;         // of neighbours on the boundary, of different curves
