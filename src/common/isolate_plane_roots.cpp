@@ -77,8 +77,7 @@ class PlaneRoots {
   std::optional<Enclosure> tight_box(const Tiles& tiles, const Box<2>& around,
                                      Approximation a) const;
   std::optional<Enclosure> tight_box_at(const Tiles& tiles, const Box<2>& around,
-                                        const Approximation& a, Point<2>* d,
-                                        bool* improvable) const;
+                                        const Approximation& a, Point<2>* d) const;
   void look(const PlaneSubdivision<2>::Node& node, const CubicSystem& last, const Box<2>& last_box,
             const Box<2>& box, CubicSystem* net);
   std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
@@ -150,13 +149,11 @@ std::optional<PlaneRoots::Approximation> PlaneRoots::newton(const Tiles& tiles, 
 /// A box some units in the last place wide around the zero near a.x, from one precise value there:
 /// with Y the inverse of the Jacobian J0 known at a point nearby, and |J - J0| bounded on
 /// X = a.x +- reach, every zero z in X has |z - (a.x - Y F(a.x))| <= E reach, E = |I - Y J|; if
-/// that is inside X there is one. (docs/error-bounds.md, section 5.) `improvable`: a closer point
-/// might make it narrower.
+/// that is inside X there is one. (docs/error-bounds.md, section 5.)
 std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles,
                                                               const Box<2>& around,
                                                               const Approximation& a,
-                                                              Point<2>* step,
-                                                              bool* improvable) const {
+                                                              Point<2>* step) const {
   const Matrix<2>& j = a.jacobian;
   const double determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
   if (!(std::fabs(determinant) > 0x1p-900)) return std::nullopt;  // its products may underflow
@@ -198,7 +195,6 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
   const double off =
       0x1p-50 * (std::fabs(j[0][0] * j[1][1]) + std::fabs(j[0][1] * j[1][0])) * std::fabs(scale);
   Point<2> image;
-  *improvable = false;
   for (int k = 0; k < 2; ++k) {
     image[k] = error[k];
     for (int m = 0; m < 2; ++m) {
@@ -206,10 +202,8 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
       for (int i = 0; i < 2; ++i) e += std::fabs(y[k][i]) * spread[i][m];
       image[k] += (e + off) * reach[m] * kUp;
     }
-    *improvable = *improvable || image[k] > 1.5 * error[k];
-  }
-  for (int k = 0; k < 2; ++k)
     if (!((std::fabs(d[k]) + image[k]) * kUp < reach[k])) return std::nullopt;
+  }
   Box<2> box;
   bool nearest = true;
   for (int k = 0; k < 2; ++k) {
@@ -238,10 +232,8 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box(const Tiles& tiles, c
                                                            Approximation a) const {
   for (int round = 0;; ++round) {
     Point<2> d{};
-    bool improvable = true;
-    const auto enclosure = tight_box_at(tiles, around, a, &d, &improvable);
-    if (round == 2 || !improvable || (enclosure && enclosure->rounded && narrow(enclosure->box)))
-      return enclosure;
+    const auto enclosure = tight_box_at(tiles, around, a, &d);
+    if (round == 2 || (enclosure && enclosure->rounded && narrow(enclosure->box))) return enclosure;
     const auto step = newton_step(tiles, a.x, nullptr);
     if (!step) return enclosure;
     a = {{a.x[0] - d[0], a.x[1] - d[1]}, a.x, step->jacobian};

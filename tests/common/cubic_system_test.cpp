@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/subdivision.hpp"
 #include "exact_nets.hpp"
 #include "written.hpp"
 
@@ -133,6 +134,24 @@ double expect_true(const CubicSource& source, const Exact& exact, const Box<2>& 
   return needed;
 }
 
+/// The part that halvings lead to is what its number says.
+void expect_same_by_number(const std::array<CubicSource, 2>& from,
+                           const std::array<std::int64_t, 2>& number,
+                           const std::array<CubicSource, 2>& restricted,
+                           const CubicSystem& system) {
+  std::array<CubicSource, 2> by_number;
+  CubicSystem net;
+  restrict_to(from, number, &by_number, &net);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(by_number[k].c, restricted[k].c);
+    EXPECT_EQ(by_number[k].radius, restricted[k].radius);
+    EXPECT_EQ(by_number[k].slope_radius, restricted[k].slope_radius);
+  }
+  EXPECT_EQ(net.b, system.b);
+  EXPECT_EQ(net.radius, system.radius);
+  EXPECT_EQ(net.slope_radius, system.slope_radius);
+}
+
 class CubicsOfDegree : public testing::TestWithParam<int> {};
 
 /// Sources on parts of tiles, and on parts of their boxes, again and again.
@@ -157,8 +176,10 @@ TEST_P(CubicsOfDegree, SourcesAreAsCloseAsTheySay) {
     std::array<CubicSource, 2> sources = sources_on(tile_f, tile_g, whole);
     for (int step = 0; step < 5; ++step) {
       Box<2> part = box;
+      std::array<std::int64_t, 2> number;
       for (int i = 0; i < 2; ++i) {
         const int count = 1 << (random() % 4), index = static_cast<int>(random()) & (count - 1);
+        number[i] = count + index;
         part.lo[i] = box.lo[i] + box.width(i) * index / count;
         part.hi[i] = part.lo[i] + box.width(i) / count;
         if (step == 4) part.lo[i] += 0.37 * part.width(i);
@@ -166,6 +187,7 @@ TEST_P(CubicsOfDegree, SourcesAreAsCloseAsTheySay) {
       std::array<CubicSource, 2> restricted;
       CubicSystem system, cut;
       restrict_to(sources, part_of(chart_of(box), part), &restricted, &system);
+      if (step < 4) expect_same_by_number(sources, number, restricted, system);
       cut_off(restricted, &cut);
       EXPECT_EQ(system.b, cut.b);
       EXPECT_EQ(system.radius, cut.radius);
@@ -304,6 +326,36 @@ TEST_P(CubicsOfDegree, SignsAreTheirs) {
 INSTANTIATE_TEST_SUITE_P(Degrees, CubicsOfDegree,
                          testing::Values(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 13, 15, 18, 25),
                          [](const auto& test) { return std::to_string(test.param); });
+
+TEST(CubicSystem, PartsHaveTheNumbersThatHalvingsLeadTo) {
+  const FilteredFunction<2> f(written::polynomial<2>("x^7 + x y - y^5/3 + 1/7")),
+      g(written::polynomial<2>("x^3 y^4 - y^2 + x/2"));
+  Kernel kernel;
+  const Box<2> box{{-1, -0.5}, {1, 0.5}};
+  TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
+  const auto sources = sources_on(of_f.at({0, 0}), of_g.at({0, 0}), box);
+  Random random(5);
+  Box<2> part = box;
+  std::array<std::int64_t, 2> number{1, 1};
+  for (int step = 0; step < 40; ++step) {
+    const int axis = step % 2;
+    const bool upper = random() % 2 == 1;
+    Box<2> half[2];
+    ASSERT_TRUE(halve_box(part, axis, &half[0], &half[1]));
+    part = half[upper];
+    number[axis] = number_of_half(number[axis], upper);
+    std::array<CubicSource, 2> restricted;
+    CubicSystem system;
+    restrict_to(sources, part_of(chart_of(box), part), &restricted, &system);
+    expect_same_by_number(sources, number, restricted, system);
+  }
+  // They end before they overflow.
+  for (int step = 0; step < 100; ++step) {
+    number[0] = number_of_half(number[0], true);
+    EXPECT_GE(number[0], 0);
+  }
+  EXPECT_EQ(number[0], 0);
+}
 
 TEST(CubicSystem, OfTilesThatClaimNothingProvesNothing) {
   const FilteredFunction<2> f(written::polynomial<2>("x^3 + y^3 + 1")),
