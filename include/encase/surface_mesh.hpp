@@ -57,7 +57,7 @@ struct SurfaceMeshOptions {
 /// Meshes of all surfaces. Neighbouring patches share the points on the facet between them: the
 /// mesh has boundary edges on the region's boundary only (and next to cells that are not
 /// certified). BadInput if the tolerance or angle is not a positive number. Deterministic. Cost:
-/// some six microseconds a triangle.
+/// seven to ten microseconds a triangle.
 Result<std::vector<SurfaceMesh>> mesh(const SurfaceEncasement& encasement,
                                       const SurfaceMeshOptions& options = {});
 

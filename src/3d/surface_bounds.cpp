@@ -39,10 +39,6 @@ Interval middle(const Bernstein<3>& net) {
 
 }  // namespace
 
-Interval dot(const IntervalVector& a, const IntervalVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 Interval DerivativeRanges::second_along(const IntervalVector& u) const {
   Interval sum(0);
   for (int i = 0; i < 3; ++i) sum = sum + dot(second[i], u) * u[i];

@@ -16,7 +16,9 @@ using IntervalVector = std::array<Interval, 3>;
 /// The largest absolute value.
 inline double magnitude(const Interval& a) { return std::fmax(std::fabs(a.lo), std::fabs(a.hi)); }
 
-Interval dot(const IntervalVector& a, const IntervalVector& b);
+inline Interval dot(const IntervalVector& a, const IntervalVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 /// A point's coordinates as intervals.
 inline IntervalVector exactly(const Point<3>& p) { return {p[0], p[1], p[2]}; }
 

@@ -16,11 +16,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What is known of f over a triangle, as far from it as `way`.
 struct Surroundings {
   Surroundings(SurfaceModels& f, const Corners& corners, double furthest);
-  /// The second derivative in two directions.
-  Interval along(const IntervalVector& a, const IntervalVector& b) const {
-    Interval sum(0);
-    for (int i = 0; i < 3; ++i) sum = sum + dot(bends[i], a) * b[i];
-    return sum;
+  /// The second derivatives in a direction and those of the axes.
+  IntervalVector bend_along(const IntervalVector& a) const {
+    return {dot(bends[0], a), dot(bends[1], a), dot(bends[2], a)};
   }
 
   bool known = false;
@@ -52,12 +50,13 @@ Surroundings::Surroundings(SurfaceModels& f, const Corners& corners, double furt
   const Box<3> box = inflated(hull(hull(Box<3>{p, p}, {q, q}), {r, r}), way);
   const SurfaceModel& model = f.around(box);
   bends = model.second(box);
-  const double turning = std::hypot(magnitude(along(u, n)), magnitude(along(v, n)));
-  const double nn = magnitude(along(n, n));
+  const IntervalVector bend_n = bend_along(n), bend_u = bend_along(u);
+  const double turning = std::hypot(magnitude(dot(bend_n, u)), magnitude(dot(bend_n, v)));
+  const double nn = magnitude(dot(bend_n, n));
   // The norm of the 2 x 2 matrix of second derivatives in the plane.
-  const Interval uu = along(u, u), vv = along(v, v), half(0.5);
-  const double in_plane =
-      magnitude(half * (uu + vv)) + std::hypot(magnitude(half * (uu - vv)), magnitude(along(u, v)));
+  const Interval uu = dot(bend_u, u), vv = dot(bend_along(v), v), half(0.5);
+  const double in_plane = magnitude(half * (uu + vv)) +
+                          std::hypot(magnitude(half * (uu - vv)), magnitude(dot(bend_u, v)));
   bend = (2 * in_plane + nn + 2 * turning) * kUp;
   const double tilted = 4 * tilt * bend;
   aside = (turning + tilted) * kUp;
@@ -119,15 +118,16 @@ bool unfolded(const Corners& c, double way, double moved) {
 /// its Bernstein coefficients; on the way it changes by second derivatives W . H W.
 double way_along(const Surroundings& s, const Corners& corners, double moved) {
   double up = kInfinity, steepest = 0, change = 0, room = kInfinity;
+  std::array<IntervalVector, 3> w;
+  for (int i = 0; i < 3; ++i) w[i] = exactly(corners[i].direction);
   for (int i = 0; i < 3; ++i) {
     room = std::min(room, corners[i].room);
-    const IntervalVector w = exactly(corners[i].direction);
     steepest = std::max(steepest, magnitude(s.slopes[i][0]) + magnitude(s.slopes[i][1]) +
                                       magnitude(s.slopes[i][2]));
+    const IntervalVector bend = s.bend_along(w[i]);
     for (int j = i; j < 3; ++j) {
-      const IntervalVector x = exactly(corners[j].direction);
-      up = std::min(up, 0.5 * (dot(s.slopes[i], x) + dot(s.slopes[j], w)).lo);
-      change = std::max(change, magnitude(s.along(w, x)));
+      up = std::min(up, 0.5 * (dot(s.slopes[i], w[j]) + dot(s.slopes[j], w[i])).lo);
+      change = std::max(change, magnitude(dot(bend, w[j])));
     }
   }
   steepest = (steepest + s.between + s.bend * s.way) * kUp;
