@@ -37,13 +37,16 @@ std::vector<int> connected_components(const std::vector<Box<2>>& boxes) {
 
 namespace {
 
-/// The longer side's; in small boxes, where branches may stay close together for a long way, that
-/// along which f changes more, weighted by the width.
+/// The longer side's, unless f changes far more along the other one; in small boxes, where branches
+/// may stay close together for a long way, that along which it changes more, weighted by the width.
 int splitting_axis(const PlaneSubdivision<1>::Node& node, const std::array<double, 2>& change) {
   constexpr int kUsualLevels = 16;
+  constexpr double kFarMore = 16;
   const Box<2>& box = node.box;
-  if (node.level < kUsualLevels) return cover::kSplitX - wider_axis(box);
-  return change[0] * box.width(0) >= change[1] * box.width(1) ? 0 : 1;
+  if (node.level >= kUsualLevels)
+    return change[0] * box.width(0) >= change[1] * box.width(1) ? 0 : 1;
+  const int longer = cover::kSplitX - wider_axis(box);
+  return change[1 - longer] > kFarMore * change[longer] ? 1 - longer : longer;
 }
 
 }  // namespace

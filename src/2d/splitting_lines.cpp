@@ -14,12 +14,10 @@ constexpr int kMostProjected = 256;  // crossings; of more every other, every th
 // Of more than two curves: crossings from which on a cell is halved whatever the branches of one
 // curve do.
 constexpr int kManyCrossings = 16;
-constexpr int kMaxBisected = 6;  // crossings up to which pairs of them are bisected
-constexpr int kMaxBisectedWhenFast = 4;
+constexpr int kMaxBisected = 6;    // crossings up to which pairs of them are bisected
 constexpr int kBisectedPairs = 3;  // of crossings
-constexpr int kBisectedPairsWhenFast = 2;
-constexpr int kSaddles = 4;       // of a curve
-constexpr int kBranchPairs = 12;  // of boundary points of a curve, on different branches
+constexpr int kSaddles = 4;        // of a curve
+constexpr int kBranchPairs = 12;   // of boundary points of a curve, on different branches
 constexpr int kBranchPairsWhenFast = 6;
 constexpr int kSplitCurves = 4;        // curves the branches of which are told apart
 constexpr int kCurvePairs = 4;         // of neighbours on the boundary, of different curves
@@ -134,11 +132,11 @@ void SplittingLines::propose_between_crossings() {
     cell_.propose(line_through({at * d[0], at * d[1]}, d));
     if (is_good_enough()) return;
   }
-  if (n > (fast_ ? kMaxBisectedWhenFast : kMaxBisected)) return;
+  if (n > kMaxBisected) return;
   pairs_.clear();
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) pairs_.push_back({i, j, square_distance(point(i), point(j))});
-  keep_closest(fast_ ? kBisectedPairsWhenFast : kBisectedPairs);
+  keep_closest(kBisectedPairs);
   for (const Pair& p : pairs_) {
     cell_.propose(line_through(halfway(point(p.a), point(p.b)), minus(point(p.b), point(p.a))));
     if (is_good_enough()) return;
