@@ -14,4 +14,7 @@ StoredSurfaces read_surfaces(const JsonNode& root);
 void put_arrangement(JsonWriter& w, const SpaceArrangement& arrangement);
 SpaceArrangement read_arrangement(const JsonNode& node, const SurfaceEncasement& encasement);
 
+void put_meshes(JsonWriter& w, const std::vector<SurfaceMesh>& meshes);
+std::vector<SurfaceMesh> read_meshes(const JsonNode& node, const SurfaceEncasement& encasement);
+
 }  // namespace encase

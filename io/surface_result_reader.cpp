@@ -241,6 +241,7 @@ StoredSurfaces read_surfaces(const JsonNode& root) {
   e.undecided = unresolved("undecided");
   e.statistics = read_statistics(root.member("statistics"));
   if (root.has("arrangement")) stored.arrangement = read_arrangement(root.member("arrangement"), e);
+  if (root.has("meshes")) stored.meshes = read_meshes(root.member("meshes"), e);
   return stored;
 }
 

@@ -192,7 +192,8 @@ void put_statistics(JsonWriter& w, const SpaceStatistics& s) {
 
 }  // namespace
 
-std::string to_json(const SurfaceEncasement& e, const SpaceArrangement* arrangement) {
+std::string to_json(const SurfaceEncasement& e, const SpaceArrangement* arrangement,
+                    const std::vector<SurfaceMesh>& meshes) {
   JsonWriter w;
   put_head(w, "surfaces", name_of(kOutcomes, e.outcome));
   w.section("input"), w.raw("{\"surfaces\":"), put_functions(w, e.input);
@@ -214,6 +215,7 @@ std::string to_json(const SurfaceEncasement& e, const SpaceArrangement* arrangem
   w.section("certificates"), put_certificates(w, e);
   w.section("history"), put_history(w, e.history);
   if (arrangement) w.section("arrangement"), put_arrangement(w, *arrangement);
+  if (!meshes.empty()) w.section("meshes"), put_meshes(w, meshes);
   w.section("degenerate"), put_unresolved(w, e.degenerate);
   w.section("undecided"), put_unresolved(w, e.undecided);
   w.section("statistics"), put_statistics(w, e.statistics);

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "encase/result_json.hpp"
+#include "encase/surface_mesh.hpp"
 #include "encase/verify.hpp"
 #include "output.hpp"
 #include "progress.hpp"
@@ -68,10 +69,16 @@ Verdict judge(const CapsResult& result, const VerifyOptions& options) {
 }
 
 Verdict judge(const StoredSurfaces& stored, const VerifyOptions& options) {
-  const auto& [encasement, arrangement] = stored;
+  const auto& [encasement, arrangement, meshes] = stored;
   Verdict verdict = verdict_of(encasement);
-  verdict.verification =
+  Verification& verification = verdict.verification;
+  verification =
       arrangement ? verify(encasement, *arrangement, options) : verify(encasement, options);
+  if (!verification.ok()) return verdict;
+  for (const SurfaceMesh& mesh : meshes)
+    verification.claims += static_cast<decltype(verification.claims)>(mesh.triangles.size());
+  if (const std::string objection = check(meshes, encasement); !objection.empty())
+    verification.objections.push_back("meshes: " + objection);
   return verdict;
 }
 

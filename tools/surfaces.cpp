@@ -57,18 +57,22 @@ Result<std::optional<SpaceArrangement>> arranged(const Result<SurfaceEncasement>
 /// The files asked for, in the order of their options. `notes` is what the report says of them.
 Status write_files(const SurfacesRequest& r, const SurfaceEncasement& encasement,
                    const SpaceArrangement* arrangement, [[maybe_unused]] std::string* notes) {
-  if (!r.json.empty())
-    if (const Status status = write_output(r.json, to_json(encasement, arrangement))) return status;
-  if (r.mesh.empty() && r.vtk_directory.empty()) return {};
+  std::vector<SurfaceMesh> meshes;
   SurfaceMeshOptions meshing;
   meshing.tolerance = tolerance(r, encasement);
   meshing.angle = r.angle;
-  const auto meshes = mesh(encasement, meshing);
-  if (!meshes) return meshes.error();
-  *notes = mesh_report(encasement, meshes.value());
+  if (!r.mesh.empty() || !r.vtk_directory.empty()) {
+    auto made = mesh(encasement, meshing);
+    if (!made) return made.error();
+    meshes = std::move(made).value();
+    *notes = mesh_report(encasement, meshes);
+  }
+  if (!r.json.empty())
+    if (const Status status = write_output(r.json, to_json(encasement, arrangement, meshes)))
+      return status;
 #ifdef ENCASE_HAVE_OPEN_MESH
   if (!r.mesh.empty())
-    if (const Status status = write_open_mesh(meshes.value(), r.mesh)) return status;
+    if (const Status status = write_open_mesh(meshes, r.mesh)) return status;
 #endif
 #ifdef ENCASE_HAVE_VTK
   if (!r.vtk_directory.empty()) {
@@ -76,7 +80,7 @@ Status write_files(const SurfacesRequest& r, const SurfaceEncasement& encasement
     tracing.tolerance = meshing.tolerance;
     const auto curves = trace(encasement, tracing);
     if (!curves) return curves.error();
-    return write_vtk(encasement, curves.value(), meshes.value(), r.vtk_directory, r.history);
+    return write_vtk(encasement, curves.value(), meshes, r.vtk_directory, r.history);
   }
 #endif
   return {};

@@ -63,8 +63,9 @@ Result<std::vector<SurfaceMesh>> mesh(const SurfaceEncasement& encasement,
 
 /// What contradicts a mesh of an encasement's surface, in a sentence; empty if nothing does. Edges
 /// have one or two triangles, which run through it in opposite directions; boundary edges lie on
-/// the region's boundary or next to cells that are not certified; Euler's characteristic is that of
-/// the patches; and all distances, both ways, and angles are proved again.
+/// the region's boundary or next to cells that are not certified; triangles lie in their cells;
+/// Euler's characteristic is that of the patches; and all distances, both ways, and angles are
+/// proved again.
 std::string check(const SurfaceMesh& mesh, const SurfaceEncasement& encasement);
 
 /// What contradicts any of the meshes of an encasement's surfaces; and those said to be apart are

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "3d/mesh_cover.hpp"
+#include "3d/space_vectors.hpp"
 #include "3d/triangle_bounds.hpp"
 #include "3d/triangles_apart.hpp"
 #include "encase/surface_mesh.hpp"
@@ -62,6 +63,17 @@ std::string check_edges(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
   return "";
 }
 
+/// Whether triangles lie in the cells that they name, up to rounding.
+std::string check_cells(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
+  const double slack = 0x1p-40 * e.region_used.bounding_box().largest_width();
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const Box<3> box = inflated(e.cells[mesh.cells[k]].box, slack);
+    for (const int p : mesh.triangles[k])
+      if (!box.contains(mesh.points[p])) return triangle_name(k) + " leaves its cell";
+  }
+  return "";
+}
+
 std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
   const FilteredFunction<3> function(e.surfaces[mesh.surface].function);
   const SurfaceBounds bounds(function, e.region_used.bounding_box().largest_width());
@@ -72,6 +84,9 @@ std::string check_bounds(const SurfaceMesh& mesh, const SurfaceEncasement& e) {
   std::vector<Corner> corners;
   for (std::size_t k = 0; k < mesh.points.size(); ++k)
     corners.push_back(maker.corner(mesh.points[k], sides ? (*sides)[k] : kWithin));
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    if (!(length(mesh.normals[k] - unit(function.gradient(mesh.points[k]))) < 0x1p-20))
+      return "the normal at point " + std::to_string(k) + " is not the surface's";
   double way = 0;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const auto& [p, q, r] = mesh.triangles[k];
@@ -143,8 +158,13 @@ std::string check(const SurfaceMesh& mesh, const SurfaceEncasement& encasement) 
   for (std::size_t k = 0; k < count; ++k)
     if (mesh.cells[k] < 0 || mesh.cells[k] >= static_cast<int>(encasement.cells.size()))
       return triangle_name(k) + " lies in no cell";
-  std::string objection = check_edges(mesh, encasement);
-  return objection.empty() ? check_bounds(mesh, encasement) : objection;
+  if (mesh.complete && !surface_topology(encasement)[mesh.surface].complete)
+    return "cells without certificate may meet the surface";
+  if (mesh.within_tolerance && !(mesh.distance <= mesh.tolerance))
+    return "the distance is larger than the tolerance";
+  for (const auto& look : {check_edges, check_cells, check_bounds})
+    if (std::string objection = look(mesh, encasement); !objection.empty()) return objection;
+  return "";
 }
 
 }  // namespace encase

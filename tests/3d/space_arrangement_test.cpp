@@ -11,8 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "3d/segment_crossings.hpp"
 #include "common/random_polynomials.hpp"
 #include "flood_fill.hpp"
+#include "random_triples.hpp"
 #include "written.hpp"
 
 namespace encase {
@@ -297,6 +299,56 @@ TEST(SpaceArrangement, PointsWithoutAFreeWayAreLocated) {
       EXPECT_EQ(arrangement.value().regions[place.region].signs[s],
                 sign_of(sgn(surfaces[s].function.polynomial()(point))));
   }
+}
+
+/// What a straight way crosses tells more than signs: points of cells with several regions of the
+/// same signs, found among thousands, and others to which a straight way is free.
+TEST(SpaceArrangement, PointsWithAFreeWayBetweenThemLieInOneRegion) {
+  const auto thousandths = [](int x, int y, int z) {
+    return RationalPoint<3>{Rational(x, 1000), Rational(y, 1000), Rational(z, 1000)};
+  };
+  const std::vector<std::pair<int, RationalPoint<3>>> places = {
+      {1, thousandths(-72, -108, -523)}, {4, thousandths(-300, -119, -339)},
+      {5, thousandths(716, 364, 747)},   {5, thousandths(770, 181, 329)},
+      {5, thousandths(124, 241, 883)},
+  };
+  std::mt19937_64 random(11);
+  std::uniform_int_distribution<int> coordinate(-999, 999);
+  for (const auto& [seed, point] : places) {
+    const auto triple = named(random_triple(2, seed));
+    const std::vector<NamedSurface> surfaces(triple.begin(), triple.end());
+    const auto e = encase(surfaces, cube(1));
+    ASSERT_TRUE(e);
+    const auto arrangement = arrange(e.value());
+    ASSERT_TRUE(arrangement);
+    const RegionLocator locator(e.value(), arrangement.value());
+    std::vector<const Function<3>*> functions;
+    for (const NamedSurface& surface : surfaces) functions.push_back(&surface.function);
+    const auto place = locator.locate(point);
+    ASSERT_EQ(place.kind, RegionLocator::Place::Kind::Region) << seed;
+    int others = 0;
+    for (int k = 0; k < 200; ++k) {
+      const RationalPoint<3> other =
+          thousandths(coordinate(random), coordinate(random), coordinate(random));
+      const auto changes = sign_changes(functions, point, other);
+      if (!changes || !changes->empty()) continue;
+      const auto beside = locator.locate(other);
+      if (beside.kind != RegionLocator::Place::Kind::Region) continue;
+      ++others;
+      EXPECT_EQ(beside.region, place.region) << seed;
+    }
+    EXPECT_GT(others, 3) << seed;
+  }
+}
+
+TEST(SpaceArrangement, FacesGoOnFromCellToCell) {
+  const Arranged torus = arranged({kTorus}, 4);
+  EXPECT_GT(torus.encasement.cells.size(), 10u);
+  EXPECT_EQ(torus.arrangement.faces.size(), 1u);
+  EXPECT_EQ(torus.arrangement.regions.size(), 2u);
+  const Arranged spheres = arranged({"x^2+y^2+z^2-1", "(x-1)^2+y^2+z^2-1"}, 3);
+  EXPECT_EQ(spheres.arrangement.faces.size(), 4u);
+  EXPECT_EQ(spheres.arrangement.regions.size(), 4u);
 }
 
 TEST(SpaceArrangement, PointsAreLocatedByTheirSigns) {

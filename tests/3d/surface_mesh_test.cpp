@@ -84,20 +84,16 @@ TEST(SurfaceMesh, OfOneSurfaceDoesNotMeetThatOfAnother) {
 TEST(CheckMesh, ObjectsToMeshesThatAreNotApart) {
   const SurfaceEncasement e =
       encased_surfaces({"x^2+y^2+z^2-1", "x^2+(y-1/1000)^2+z^2-1-1/100-1/5000"}, 2);
-  // The outer one, said to be the inner one's: each is good for itself with these bounds.
-  std::vector<SurfaceMesh> meshes = meshes_of(e, 0.05);
-  for (SurfaceMesh& mesh : meshes) {
-    mesh.tolerance = mesh.distance = mesh.angle = 0.3;
-    mesh.distance_to_mesh = std::numeric_limits<double>::infinity();
-    mesh.isotopic = false;
-    mesh.distances.assign(mesh.triangles.size(), 0.3);
-    mesh.angles.assign(mesh.triangles.size(), 0.3);
-  }
+  // Too few triangles to keep them apart.
+  SurfaceMeshOptions options;
+  options.tolerance = 0.05;
+  options.max_triangles = 1500;
+  std::vector<SurfaceMesh> meshes = mesh(e, options).value();
+  EXPECT_FALSE(meshes[0].apart);
+  EXPECT_FALSE(meshes[1].apart);
   EXPECT_EQ(check(meshes, e), "");
-  for (Point<3>& p : meshes[1].points) p = 0.99 * p;  // across the inner one, a little
+  for (SurfaceMesh& mesh : meshes) mesh.apart = true;
   EXPECT_EQ(check(meshes, e), "that meshes are apart where the surfaces are is not proved");
-  meshes[1].apart = false;
-  EXPECT_EQ(check(meshes, e), "");
 }
 
 TEST(CheckMesh, ObjectsToWhatIsChanged) {
@@ -118,6 +114,12 @@ TEST(CheckMesh, ObjectsToWhatIsChanged) {
   bad.cells.pop_back();
   bad.distances.pop_back();
   bad.angles.pop_back();
+  EXPECT_NE(check(bad, e), "");
+  bad = good;
+  bad.normals[7] = -1.0 * bad.normals[7];
+  EXPECT_EQ(check(bad, e), "the normal at point 7 is not the surface's");
+  bad = good;
+  bad.points[7] = {1e300, 0, 0};
   EXPECT_NE(check(bad, e), "");
   bad = good;
   bad.euler = 0;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -21,6 +23,35 @@ TEST(SurfaceResultJson, ReadsBackTheSameBytes) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(to_json(read.value().encasement), text);
   EXPECT_EQ(read.value().encasement.triple_points.size(), 2u);
+}
+
+TEST(SurfaceResultJson, ReadsBackMeshes) {
+  const SurfaceEncasement e = sample();
+  SurfaceMeshOptions options;
+  options.tolerance = 0.05;
+  auto meshes = mesh(e, options);
+  ASSERT_TRUE(meshes);
+  meshes.value()[1].distances[0] = std::numeric_limits<double>::infinity();
+  const std::string text = to_json(e, nullptr, meshes.value());
+  const auto read = surfaces_from_json(text, "sample.json");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(to_json(read.value().encasement, nullptr, read.value().meshes) == text);
+  ASSERT_EQ(read.value().meshes.size(), 3u);
+  EXPECT_TRUE(read.value().meshes[0].isotopic);
+  EXPECT_TRUE(std::isinf(read.value().meshes[1].distances[0]));
+  EXPECT_EQ(check(read.value().meshes[0], read.value().encasement), "");
+  const nlohmann::json good = nlohmann::json::parse(text);
+  const auto refused = [&](const char* pointer, const nlohmann::json& value) {
+    nlohmann::json bad = good;
+    bad[nlohmann::json::json_pointer(pointer)] = value;
+    return !surfaces_from_json(bad.dump(), "bad.json");
+  };
+  EXPECT_TRUE(refused("/meshes/0/surface", 3));
+  EXPECT_TRUE(refused("/meshes/0/triangles/0/1", 1000000));
+  EXPECT_TRUE(refused("/meshes/0/cells/0", -1));
+  EXPECT_TRUE(refused("/meshes/0/normals", nlohmann::json::array()));
+  EXPECT_TRUE(refused("/meshes/0/isotopic", 1));
+  EXPECT_TRUE(refused("/meshes/0/points/0/0", nullptr));
 }
 
 TEST(SurfaceResultJson, ReadsBackWhatIsDegenerate) {

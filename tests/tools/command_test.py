@@ -714,7 +714,17 @@ class Surfaces(CommandTest):
         self.assertIn("intersection curves", run.stdout)
         self.assertIn("Euler characteristic 2", run.stdout)
         with open(files["s.json"]) as file:
-            self.assertEqual(json.load(file)["command"], "surfaces")
+            result = json.load(file)
+        self.assertEqual(result["command"], "surfaces")
+        self.assertIn("isotopic", run.stdout)
+        self.assertEqual([mesh["isotopic"] for mesh in result["meshes"]], [True, True])
+        self.assertEqual(encase("check", files["s.json"]).returncode, 0)
+        result["meshes"][0]["distances"][2] /= 4
+        with open(files["s.json"], "w") as file:
+            json.dump(result, file)
+        run = encase("check", files["s.json"])
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("the distance of triangle 2 is not proved", run.stdout)
         with open(files["s.off"]) as file:
             self.assertTrue(file.readline().endswith("OFF\n"))
         self.assertTrue(os.path.exists(os.path.join(files["vtk"], "result.vtm")))
