@@ -163,6 +163,24 @@ TEST(MeshCover, HoldsWhereSurfacesMeetEdgesOfTheRegionAtSmallAngles) {
   expect_covered(encased_surfaces({"z+2-(y+2)^2/3-(x-1/9)^2/20+(x-1/9)/90"}, 2), 0.02);
 }
 
+TEST(MeshCover, IsNotClaimedOfWhatWindsTwice) {
+  const SurfaceEncasement e = encased_surfaces({"z"}, 2);
+  const std::vector<Point<3>> ring{{2, 0, 0},  {2, 2, 0},   {0, 2, 0},  {-2, 2, 0},
+                                   {-2, 0, 0}, {-2, -2, 0}, {0, -2, 0}, {2, -2, 0}};
+  for (const int turns : {1, 2}) {
+    SurfaceMesh mesh;
+    mesh.surface = 0;
+    mesh.tolerance = 0.02;
+    mesh.points.push_back({0, 0, 0});
+    const int count = turns * static_cast<int>(ring.size());
+    for (int k = 0; k < count; ++k) {
+      mesh.points.push_back(ring[k % ring.size()]);
+      mesh.triangles.push_back({0, 1 + k, 1 + (k + 1) % count});
+    }
+    EXPECT_EQ(is_cover(mesh, e), turns == 1);
+  }
+}
+
 TEST(CheckMesh, ObjectsToAnIsotopyThatIsNotProved) {
   const SurfaceEncasement e = encased_surfaces({"x^2+y^2+z^2-1"}, 2);
   const SurfaceMesh good = mesh_of(e, 0.02);
