@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <string>
 #include <thread>
@@ -18,18 +17,11 @@
 #include "random_curves.hpp"
 #include "slice.hpp"
 #include "surfaces.hpp"
+#include "validators.hpp"
 
 namespace {
 
 constexpr int kMostThreads = 1024;
-
-const CLI::Validator kPositive(
-    [](const std::string& text) -> std::string {
-      char* end = nullptr;
-      const double value = std::strtod(text.c_str(), &end);
-      return *end == 0 && value > 0 ? "" : "'" + text + "' is no positive number";
-    },
-    "POSITIVE");
 
 constexpr char kExitCodes[] =
     "Exit codes: 0 certified, 1 usage or bad input, 2 files, 3 something degenerate is reported,\n"
@@ -56,13 +48,13 @@ template <class Options>
 void add_budgets(CLI::App& command, Options& options) {
   command.add_option("--max-cells", options.max_cells, "stop at so many cells")
       ->type_name("N")
-      ->check(kPositive)
+      ->check(encase::kPositive)
       ->capture_default_str();
   command
       .add_option("--max-seconds", options.max_seconds,
                   "stop after so much CPU time, of all threads together")
       ->type_name("S")
-      ->check(kPositive)
+      ->check(encase::kPositive)
       ->capture_default_str();
   command.add_option("--max-bits", options.max_bits, "the highest precision to try")
       ->type_name("N")
@@ -98,8 +90,11 @@ void add_vtk(CLI::App& command, encase::Request& r, const char* meaning) {
 void add_perturbation(CLI::App& command, double& delta, std::uint64_t& seed) {
   command.add_option("--perturb", delta, "perturb every coefficient c by up to DELTA (1 + |c|)")
       ->type_name("DELTA")
-      ->check(kPositive);
-  command.add_option("--seed", seed, "of the perturbation")->type_name("N")->capture_default_str();
+      ->check(encase::kPositive);
+  command.add_option("--seed", seed, "of the perturbation")
+      ->check(encase::kNatural)
+      ->type_name("N")
+      ->capture_default_str();
 }
 
 void add_reports(CLI::App& command, encase::Request& r) {
@@ -154,11 +149,11 @@ void add_caps(CLI::App& app, encase::CapsRequest& r) {
   add_vtk(*c, r, "write VTK files for ParaView");
   c->add_option("--max-boxes", r.options.max_boxes, "stop at so many nodes of the quadtree")
       ->type_name("N")
-      ->check(kPositive)
+      ->check(encase::kPositive)
       ->capture_default_str();
   c->add_option("--max-seconds", r.options.max_seconds, "stop after so much CPU time")
       ->type_name("S")
-      ->check(kPositive)
+      ->check(encase::kPositive)
       ->capture_default_str();
   add_reports(*c, r);
   c->footer(
@@ -196,7 +191,7 @@ void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
   c->add_option("--tolerance", r.tolerance,
                 "of curves and meshes, in input units; by default 1/1000 of the region's size")
       ->type_name("T")
-      ->check(kPositive);
+      ->check(encase::kPositive);
   c->add_option("--angle", r.angle, "of meshes: between normals of triangles and surfaces, radians")
       ->type_name("A")
       ->capture_default_str();
@@ -204,7 +199,7 @@ void add_surfaces(CLI::App& app, encase::SurfacesRequest& r) {
   c->add_option("--singular-width", r.options.singular_width,
                 "of the cells along singular curves, in parts of the region's size")
       ->type_name("PART")
-      ->check(kPositive)
+      ->check(encase::kPositive)
       ->capture_default_str();
   add_budgets(*c, r.options);
   add_threads(*c, r.options.threads, "how many may work; the result is the same for any number");

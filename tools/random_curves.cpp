@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "output.hpp"
+#include "validators.hpp"
 
 namespace encase {
 
@@ -63,6 +64,7 @@ void add_random_options(CLI::App& app, RandomRequest& request) {
       ->type_name("N")
       ->capture_default_str();
   app.add_option("--seed", request.seed, "equal seeds give equal polynomials")
+      ->check(kNatural)
       ->type_name("N")
       ->capture_default_str();
   app.add_option("--dim", request.dimension, "2: curves; 3: surfaces")

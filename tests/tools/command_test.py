@@ -807,6 +807,10 @@ class Random(CommandTest):
                 self.encased(run, 0)
                 self.assertEqual(json.loads(run.stdout)["curves"], 2)
 
+    def test_seeds_are_natural_numbers(self):
+        for seed in ("-3", "3.5"):
+            self.refused(encase("random", "--degree", "2", "--seed", seed), 1, "--seed")
+
     def test_same_seed_gives_the_same_bytes(self):
         def draw(seed):
             return encase("random", "--degree", "3", "--count", "2", "--seed", seed).stdout
