@@ -45,8 +45,8 @@ class Mesher {
   }
 
   Result<std::vector<SurfaceMesh>> meshes() {
-    apart_.assign(functions_.size(), false);
     for (int round = 0; round < kMaxRounds; ++round) {
+      apart_.assign(functions_.size(), false);  // until all patches are compared again
       for (std::size_t k = 0; k < patches_.size(); ++k) {
         if (!patches_[k].stale) continue;
         if (cancelled(static_cast<double>(k) / static_cast<double>(patches_.size())))
