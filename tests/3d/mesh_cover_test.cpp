@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <string>
 
 #include "3d/space_vectors.hpp"
 #include "3d/triangle_bounds.hpp"
@@ -179,6 +180,64 @@ TEST(MeshCover, IsNotClaimedOfWhatWindsTwice) {
     }
     EXPECT_EQ(is_cover(mesh, e), turns == 1);
   }
+}
+
+TEST(MeshCover, IsNotClaimedOfAnEdgeAcrossASide) {
+  const SurfaceEncasement e = encased_surfaces({"z"}, 2);
+  const FilteredFunction<3> function(e.surfaces[0].function);
+  const SurfaceBounds bounds(function, 4);
+  const MeshCorners maker(e, bounds);
+  SurfaceMesh mesh;
+  mesh.surface = 0;
+  mesh.points = {{2, 0, 0}, {2, 2, 0}, {-2, 2, 0}, {-2, -2, 0}, {2, -2, 0}};
+  // From a point of the side x = 2 to the others; or with an edge along all of that side within.
+  for (const bool across : {false, true}) {
+    mesh.triangles = across ? std::vector<std::array<int, 3>>{{2, 3, 4}, {2, 4, 1}, {4, 0, 1}}
+                            : std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
+    const auto sides = sides_of_points(mesh, maker);
+    ASSERT_TRUE(sides);
+    std::vector<Corner> corners;
+    for (std::size_t k = 0; k < mesh.points.size(); ++k)
+      corners.push_back(maker.corner(mesh.points[k], (*sides)[k]));
+    EXPECT_EQ(covers_surface(mesh, e, maker, corners, 0.001), !across);
+  }
+}
+
+TEST(MeshCorners, LeadAlongSidesAndNotBeyondOthers) {
+  const SurfaceEncasement e = encased_surfaces({"x+z-1/9"}, 2);
+  const FilteredFunction<3> function(e.surfaces[0].function);
+  const SurfaceBounds bounds(function, 4);
+  const MeshCorners maker(e, bounds);
+  const double half = std::sqrt(0.5);
+  const Corner within = maker.corner({1.5, 0, -1}, kWithin);
+  EXPECT_NEAR(length(within.direction - Point<3>{half, 0, half}), 0, 1e-12);
+  EXPECT_NEAR(within.room, 0.5 / half, 1e-9);
+  PointSides sides = kWithin;
+  for (int k = 0; k < maker.side_count(); ++k)
+    if (maker.beyond(k, {2, 0, -1}) == 0) sides[0] = k;
+  const Corner in_side = maker.corner({2, 0, -1}, sides);
+  EXPECT_NEAR(length(in_side.direction - Point<3>{0, 0, 1}), 0, 1e-12);
+  EXPECT_NEAR(in_side.room, 1, 1e-9);
+}
+
+TEST(CheckMesh, ObjectsToCellsThatAreNotItsOwn) {
+  const SurfaceEncasement e = encased_surfaces({"x^2+y^2+z^2-1", "z-x/7-1/9"}, 2);
+  SurfaceMesh bad = mesh_of(e, 0.05);
+  ASSERT_EQ(check(bad, e), "");
+  for (int& cell : bad.cells) cell = bad.cells.back();
+  EXPECT_NE(check(bad, e).find(" leaves its cell"), std::string::npos);
+}
+
+TEST(CheckMesh, ObjectsToCompletenessWithoutCertificate) {
+  const auto e = encase({{"planes", written::polynomial<3>("x*y")}},
+                        make_box({-1, -1, -1}, {1, 1, 1}).value());
+  ASSERT_TRUE(e);
+  ASSERT_EQ(e.value().outcome, Outcome::Degenerate);
+  SurfaceMesh bad = mesh_of(e.value(), 0.05);
+  EXPECT_FALSE(bad.complete);
+  EXPECT_EQ(check(bad, e.value()), "");
+  bad.complete = true;
+  EXPECT_EQ(check(bad, e.value()), "cells without certificate may meet the surface");
 }
 
 TEST(CheckMesh, ObjectsToAnIsotopyThatIsNotProved) {

@@ -80,6 +80,23 @@ TEST(TriangleBounds, AreSharpForASphere) {
   EXPECT_LE(proved.way, 1.1 * (1 - height));
 }
 
+TEST(TriangleBounds, HaveNoWayWhereDirectionsCross) {
+  const FilteredFunction<3> f(written::polynomial<3>("z"));
+  Kernel kernel;
+  const SurfaceBounds bounds(f, 4);
+  SurfaceModels models(bounds, kernel);
+  const double side = 1e-3, height = 4e-4, z = std::sqrt(1 - 0.9 * 0.9);
+  for (const double turned : {0.9, -0.9}) {
+    const std::array<Point<3>, 3> points{{{0, 0, height}, {side, 0, height}, {0, side, height}}};
+    Corners corners;
+    for (int k = 0; k < 3; ++k)
+      corners[k] = {points[k], kWithin, magnitude(bounds.value(points[k], Kernel::kDoubleBits)),
+                    Point<3>{k == 1 ? turned : 0.9, 0, z}, 1.0};
+    const double way = bound_triangle(models, corners, 0.1, 0x1p-40).way;
+    EXPECT_EQ(std::isfinite(way), turned > 0) << way;
+  }
+}
+
 TEST(TriangleBounds, HaveNoWayOutOfTheRegion) {
   const FilteredFunction<3> f(written::polynomial<3>("x^2+y^2+z^2-1"));
   Kernel kernel;
