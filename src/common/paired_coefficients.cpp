@@ -182,8 +182,8 @@ struct HalvedRow {
   }
   static HWY_INLINE void add(Row* sum, double binomial, const Row* row) {
     const Row factor = Row::all(binomial);
-    sum[0] = exact_multiply_add(factor, row[0], sum[0]);
-    sum[1] = exact_multiply_add(factor, row[1], sum[1]);
+    sum[0] = multiply_add(factor, row[0], sum[0]);
+    sum[1] = multiply_add(factor, row[1], sum[1]);
     sum[2] = sum[2] + factor * row[2];
   }
   HWY_INLINE void store(std::size_t to, double* const* high, double* const* low, Row* most) const {

@@ -62,8 +62,8 @@ ENCASE_ROW_OPERATION(least, Min)
 ENCASE_ROW_OPERATION(greatest, Max)
 #undef ENCASE_ROW_OPERATION
 
-/// a * b + c where that is a double: then it does not matter whether the product is rounded.
-HWY_INLINE Row exact_multiply_add(const Row& a, const Row& b, const Row& c) {
+/// a * b + c, rounded once or twice: all instruction sets agree where the product is a double.
+HWY_INLINE Row multiply_add(const Row& a, const Row& b, const Row& c) {
   Row r;
   for (int k = 0; k < kParts; ++k) r.part[k] = hn::MulAdd(a.part[k], b.part[k], c.part[k]);
   return r;

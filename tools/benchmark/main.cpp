@@ -90,11 +90,11 @@ std::string processor(const std::string& name) {
 std::string machine() {
   const std::string cgal = cgal_version();
   return fmt::format(
-      "{} (family {}, model {}), {} MHz, {} cores, one used; {}, the floor with {}; "
+      "{} (family {}, model {}), {} MHz, {} cores, one used; {}; "
       "compiler {}; {}",
       processor("model name"), processor("cpu family"), processor("model"), processor("cpu MHz"),
-      std::thread::hardware_concurrency(), instruction_sets().front(), vector_instructions(),
-      __VERSION__, cgal.empty() ? "without CGAL" : "CGAL " + cgal);
+      std::thread::hardware_concurrency(), instruction_sets().front(), __VERSION__,
+      cgal.empty() ? "without CGAL" : "CGAL " + cgal);
 }
 
 void add_options(CLI::App& app, Request& request, Outputs& outputs,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "encase/geometry.hpp"
@@ -40,8 +39,5 @@ void newton_steps(const PackedPolynomial& f, const PackedPolynomial& g,
 /// The same for eight points at a time, what they cost where there are many.
 void newton_steps_together(const PackedPolynomial& f, const PackedPolynomial& g,
                            std::vector<Point<2>>& points);
-
-/// The instructions that `newton_steps` uses here.
-std::string vector_instructions();
 
 }  // namespace encase::benchmark

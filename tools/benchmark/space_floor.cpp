@@ -5,71 +5,46 @@
 
 #include "encase/number.hpp"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define BENCHMARK_CLONES __attribute__((target_clones("avx512f", "fma", "default")))
-#else
-#define BENCHMARK_CLONES
-#endif
-#define BENCHMARK_INLINE inline __attribute__((always_inline))
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "space_floor.cpp"
+#include <hwy/foreach_target.h>
 
-namespace encase::benchmark {
-namespace {
+#include "common/simd_rows-inl.hpp"
 
+HWY_BEFORE_NAMESPACE();
+namespace encase::HWY_NAMESPACE {
+
+using benchmark::PackedSpacePolynomial;
 constexpr int kSteps = 4;
-constexpr int kLanes = PackedSpacePolynomial::kLanes;
-
-typedef double Lanes __attribute__((vector_size(kLanes * sizeof(double)), may_alias));
-
-BENCHMARK_INLINE double sum(const Lanes& v) {
-  return ((v[0] + v[4]) + (v[1] + v[5])) + ((v[2] + v[6]) + (v[3] + v[7]));
-}
 
 /// Value and gradient, by Horner's rule in y and z, for all powers of x at a time.
-BENCHMARK_INLINE void evaluate(const PackedSpacePolynomial& f, const Point<3>& p, double* value,
-                               double* gradient) {
-  const Lanes* row = reinterpret_cast<const Lanes*>(f.data());
-  Lanes all = {}, of_y = {}, of_z = {};
+HWY_INLINE void evaluate(const PackedSpacePolynomial& f, const Point<3>& p, double* value,
+                         double* gradient) {
+  const double* row = f.data();
+  const Row zero = Row::all(0), y = Row::all(p[1]), z = Row::all(p[2]);
+  Row all = zero, of_y = zero, of_z = zero;
   for (int k = f.degree(); k >= 0; --k) {
-    Lanes inner = {}, slope = {};
-    for (int j = f.degree() - k; j >= 0; --j, ++row) {
-      slope = slope * p[1] + inner;
-      inner = inner * p[1] + *row;
+    Row inner = zero, slope = zero;
+    for (int j = f.degree() - k; j >= 0; --j, row += PackedSpacePolynomial::kLanes) {
+      slope = multiply_add(slope, y, inner);
+      inner = multiply_add(inner, y, Row::load(row));
     }
-    of_z = of_z * p[2] + all;
-    of_y = of_y * p[2] + slope;
-    all = all * p[2] + inner;
+    of_z = multiply_add(of_z, z, all);
+    of_y = multiply_add(of_y, z, slope);
+    all = multiply_add(all, z, inner);
   }
-  const double x = p[0], x2 = x * x, x4 = x2 * x2;
-  const Lanes power = {1, x, x2, x2 * x, x4, x4 * x, x4 * x2, x4 * x2 * x};
-  const Lanes index = {0, 1, 2, 3, 4, 5, 6, 7};
-  const Lanes below = {0, 1, x, x2, x2 * x, x4, x4 * x, x4 * x2};
-  *value = sum(all * power);
-  gradient[0] = sum(all * (index * below));
-  gradient[1] = sum(of_y * power);
-  gradient[2] = sum(of_z * power);
+  const double x = p[0], x2 = x * x, x3 = x2 * x, x4 = x2 * x2;
+  HWY_ALIGN const double powers[8] = {1, x, x2, x3, x4, x4 * x, x4 * x2, x4 * x3};
+  HWY_ALIGN const double slopes[8] = {0,      1,      2 * x,        3 * x2,
+                                      4 * x3, 5 * x4, 6 * (x4 * x), 7 * (x4 * x2)};
+  const Row power = Row::load(powers);
+  *value = sum_of_lanes(all * power);
+  gradient[0] = sum_of_lanes(all * Row::load(slopes));
+  gradient[1] = sum_of_lanes(of_y * power);
+  gradient[2] = sum_of_lanes(of_z * power);
 }
 
-}  // namespace
-
-PackedSpacePolynomial::PackedSpacePolynomial(const Polynomial<3>& f) : degree_(f.degree()) {
-  const int n = degree_ + 1, rows = n * (n + 1) / 2;
-  storage_.assign(static_cast<std::size_t>((rows + 1) * kLanes), 0.0);
-  const auto address = reinterpret_cast<std::uintptr_t>(storage_.data());
-  const std::size_t line = kLanes * sizeof(double);
-  double* first = storage_.data() + (line - address % line) % line / sizeof(double);
-  data_ = first;
-  for (const auto& term : f.terms()) {
-    // Rows of the powers of z above that of the term, then of y above.
-    int row = 0;
-    for (int k = degree_; k > term.exponent[2]; --k) row += n - k;
-    row += degree_ - term.exponent[2] - term.exponent[1];
-    first[row * kLanes + term.exponent[0]] = nearest_double(term.coefficient);
-  }
-}
-
-BENCHMARK_CLONES void newton_steps(const std::array<PackedSpacePolynomial, 3>& f,
-                                   std::vector<Point<3>>& points) {
+void newton_steps(const std::array<PackedSpacePolynomial, 3>& f, std::vector<Point<3>>& points) {
   for (Point<3>& p : points)
     for (int step = 0; step < kSteps; ++step) {
       double v[3], j[3][3];
@@ -90,4 +65,39 @@ BENCHMARK_CLONES void newton_steps(const std::array<PackedSpacePolynomial, 3>& f
     }
 }
 
-}  // namespace encase::benchmark
+}  // namespace encase::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace encase {
+namespace {
+
+HWY_EXPORT(newton_steps);
+
+}  // namespace
+
+namespace benchmark {
+
+PackedSpacePolynomial::PackedSpacePolynomial(const Polynomial<3>& f) : degree_(f.degree()) {
+  const int n = degree_ + 1, rows = n * (n + 1) / 2;
+  storage_.assign(static_cast<std::size_t>((rows + 1) * kLanes), 0.0);
+  const auto address = reinterpret_cast<std::uintptr_t>(storage_.data());
+  const std::size_t line = kLanes * sizeof(double);
+  double* first = storage_.data() + (line - address % line) % line / sizeof(double);
+  data_ = first;
+  for (const auto& term : f.terms()) {
+    // Rows of the powers of z above that of the term, then of y above.
+    int row = 0;
+    for (int k = degree_; k > term.exponent[2]; --k) row += n - k;
+    row += degree_ - term.exponent[2] - term.exponent[1];
+    first[row * kLanes + term.exponent[0]] = nearest_double(term.coefficient);
+  }
+}
+
+void newton_steps(const std::array<PackedSpacePolynomial, 3>& f, std::vector<Point<3>>& points) {
+  HWY_DYNAMIC_DISPATCH(newton_steps)(f, points);
+}
+
+}  // namespace benchmark
+}  // namespace encase
+#endif
