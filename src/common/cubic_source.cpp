@@ -34,6 +34,12 @@ struct alignas(64) Powers {
   double m[kRow][kRow];
 };
 
+/// Where the nets of one quarter of a box go.
+struct QuarterNets {
+  double* source[2];
+  double* cubic;
+};
+
 /// T_i(origin + half s), i < 8: row i has its coefficients in T_0(s), ..., T_7(s).
 struct alignas(64) Substitution {
   double m[8][8];
@@ -217,6 +223,62 @@ void restrict_nets(int count, const double* f, const double* g, const double* of
   run(f, g, of_rows, of_lanes, to_f, to_g, to, extremes, sums);
 }
 
+/// A Chebyshev net of N rows on both halves of its box across the rows. `m` belongs to the upper
+/// half; that of the lower one has the signs of a chessboard.
+template <int N>
+HWY_INLINE void halve_rows(const double* m, const Row* c, Row* lower, Row* upper) {
+  for (int p = 0; p < kParts; ++p) {
+#pragma GCC unroll 8
+    for (int k = 0; k < N; ++k) {
+      Vector even = hn::Mul(c[k].part[p], hn::Set(Lanes(), m[8 * k + k]));
+#pragma GCC unroll 8
+      for (int i = k + 2; i < N; i += 2)
+        even = hn::Add(even, hn::Mul(c[i].part[p], hn::Set(Lanes(), m[8 * i + k])));
+      if (k + 1 == N) {
+        lower[k].part[p] = upper[k].part[p] = even;
+        continue;
+      }
+      Vector odd = hn::Mul(c[k + 1].part[p], hn::Set(Lanes(), m[8 * (k + 1) + k]));
+#pragma GCC unroll 8
+      for (int i = k + 3; i < N; i += 2)
+        odd = hn::Add(odd, hn::Mul(c[i].part[p], hn::Set(Lanes(), m[8 * i + k])));
+      lower[k].part[p] = hn::Sub(even, odd);
+      upper[k].part[p] = hn::Add(even, odd);
+    }
+  }
+  for (int k = N; k < 8; ++k) lower[k] = upper[k] = Row::all(0);
+}
+
+/// Two Chebyshev nets on the quarters of their box, transposed, and their cubic parts as above. Bit
+/// 0 of a quarter's number belongs to the axis of the rows, bit 1 to the other one.
+template <int N>
+void quarter_nets_of(const double* const* from, const double* m, const QuarterNets* to,
+                     PairedExtremes* extremes, NetSums* sums) {
+  for (int net = 0; net < 2; ++net) {
+    Row rows[8], halves[2][8], quarters[2][8];
+    for (int i = 0; i < 8; ++i) rows[i] = Row::load(from[net] + 8 * i);
+    halve_rows<N>(m, rows, halves[0], halves[1]);
+    for (int first = 0; first < 2; ++first) {
+      transpose(halves[first]);
+      halve_rows<N>(m, halves[first], quarters[0], quarters[1]);
+      for (int second = 0; second < 2; ++second)
+        for (int i = 0; i < 8; ++i)
+          quarters[second][i].store(to[first + 2 * second].source[net] + 8 * i);
+    }
+  }
+  for (int q = 0; q < 4; ++q)
+    cut_off_nets(to[q].source[0], to[q].source[1], to[q].cubic, &extremes[q], &sums[q]);
+}
+
+void quarter_nets(int count, const double* const* from, const double* m, const QuarterNets* to,
+                  PairedExtremes* extremes, NetSums* sums) {
+  const auto run = count <= 5   ? quarter_nets_of<5>
+                   : count == 6 ? quarter_nets_of<6>
+                   : count == 7 ? quarter_nets_of<7>
+                                : quarter_nets_of<8>;
+  run(from, m, to, extremes, sums);
+}
+
 }  // namespace encase::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -226,6 +288,7 @@ namespace {
 
 HWY_EXPORT(cut_off_nets);
 HWY_EXPORT(restrict_nets);
+HWY_EXPORT(quarter_nets);
 HWY_EXPORT(expand_powers);
 
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
@@ -342,20 +405,10 @@ const Substitution& substitution(double origin, double half, Substitution* scrat
   substitute(origin, half, scratch);
   return *scratch;
 }
-double half_of_part(std::int64_t number) {
-  return 1 / static_cast<double>(std::bit_floor(static_cast<std::uint64_t>(number)));
-}
-
-const Substitution& substitution(std::int64_t number, Substitution* scratch) {
-  if (number < kUsualParts) return usual_substitution(static_cast<int>(number));
-  const double half = half_of_part(number);
-  substitute(static_cast<double>(2 * number + 1) * half - 3, half, scratch);
-  return *scratch;
-}
 
 /// What is said of cubic nets that are cut off from sources.
-void describe(const std::array<CubicSource, 2>& sources, const PairedExtremes& extremes,
-              const NetSums& sums, CubicSystem* system) {
+void describe(const CubicSource* sources, const PairedExtremes& extremes, const NetSums& sums,
+              CubicSystem* system) {
   system->rows_axis = 1 - sources[0].rows_axis;
   system->lo = extremes.lo;
   system->hi = extremes.hi;
@@ -378,10 +431,28 @@ void cut_off(const std::array<CubicSource, 2>& sources, CubicSystem* system) {
   NetSums sums;
   HWY_DYNAMIC_DISPATCH(cut_off_nets)
   (sources[0].c[0].data(), sources[1].c[0].data(), system->b[0].data(), &extremes, &sums);
-  describe(sources, extremes, sums, system);
+  describe(sources.data(), extremes, sums, system);
 }
 
 namespace {
+
+/// What is said of sources on a part of their box, transposed, and of the cubic nets there.
+void describe_part(const std::array<CubicSource, 2>& from, const Point<2>& half,
+                   const PairedExtremes& extremes, const NetSums& sums, CubicSource* to,
+                   CubicSystem* system) {
+  for (int k = 0; k < 2; ++k) {
+    CubicSource& source = to[k];
+    const double rounding = from[k].size * 0x1p-41 + kTiny;
+    source.rows_axis = 1 - from[k].rows_axis;
+    source.count = from[k].count;
+    source.size = sums.of[k][0] * kUp;
+    source.left_out = from[k].left_out;
+    source.radius = (from[k].radius + rounding) * kUp;
+    for (int i = 0; i < 2; ++i)
+      source.slope_radius[i] = (from[k].slope_radius[i] * half[i] + 49 * rounding) * kUp;
+  }
+  describe(to, extremes, sums, system);
+}
 
 /// The sources on a part, given by the matrices along x and y; none where it is as wide as the box.
 void restrict_to(const std::array<CubicSource, 2>& from, const std::array<const double*, 2>& matrix,
@@ -393,18 +464,7 @@ void restrict_to(const std::array<CubicSource, 2>& from, const std::array<const 
   HWY_DYNAMIC_DISPATCH(restrict_nets)
   (std::max(from[0].count, from[1].count), from[0].c[0].data(), from[1].c[0].data(), matrix[rows],
    matrix[lanes], f->c[0].data(), g->c[0].data(), system->b[0].data(), &extremes, &sums);
-  for (int k = 0; k < 2; ++k) {
-    CubicSource& source = (*to)[k];
-    const double rounding = from[k].size * 0x1p-41 + kTiny;
-    source.rows_axis = lanes;
-    source.count = from[k].count;
-    source.size = sums.of[k][0] * kUp;
-    source.left_out = from[k].left_out;
-    source.radius = (from[k].radius + rounding) * kUp;
-    for (int i = 0; i < 2; ++i)
-      source.slope_radius[i] = (from[k].slope_radius[i] * half[i] + 49 * rounding) * kUp;
-  }
-  describe(*to, extremes, sums, system);
+  describe_part(from, half, extremes, sums, to->data(), system);
 }
 
 }  // namespace
@@ -420,13 +480,22 @@ void restrict_to(const std::array<CubicSource, 2>& from, const Part& part,
   restrict_to(from, matrix, part.half, to, system);
 }
 
-void restrict_to(const std::array<CubicSource, 2>& from, const std::array<std::int64_t, 2>& number,
-                 std::array<CubicSource, 2>* to, CubicSystem* system) {
-  Substitution scratch[2];
-  std::array<const double*, 2> matrix;
-  for (int i = 0; i < 2; ++i)
-    matrix[i] = number[i] == 1 ? nullptr : substitution(number[i], &scratch[i]).m[0];
-  restrict_to(from, matrix, {half_of_part(number[0]), half_of_part(number[1])}, to, system);
+void quarter(const std::array<CubicSource, 2>& from, SystemPatch* quarters) {
+  const int rows = from[0].rows_axis;
+  const double* const nets[2] = {from[0].c[0].data(), from[1].c[0].data()};
+  SystemPatch* ordered[4];
+  QuarterNets to[4];
+  for (int q = 0; q < 4; ++q) {
+    SystemPatch& patch = *(ordered[q] = quarters + ((q % 2 << rows) | (q / 2 << (1 - rows))));
+    to[q] = {{patch.source[0].c[0].data(), patch.source[1].c[0].data()}, patch.net.b[0].data()};
+  }
+  constexpr int kUpperHalf = 3;
+  PairedExtremes extremes[4];
+  NetSums sums[4];
+  HWY_DYNAMIC_DISPATCH(quarter_nets)
+  (std::max(from[0].count, from[1].count), nets, usual_substitution(kUpperHalf).m[0], to, extremes,
+   sums);
+  for (int q = 0; q < 4; ++q) describe_part(from, {0.5, 0.5}, extremes[q], sums[q], ordered[q]->source.data(), &ordered[q]->net);
 }
 
 }  // namespace encase

@@ -31,18 +31,18 @@ void expand(const Tile& tile, const Box<2>& box, CubicSource* source);
 /// out.
 void cut_off(const std::array<CubicSource, 2>& sources, CubicSystem* system);
 
-/// Parts of [-1,1] that halvings lead to have numbers: 1 the whole, and n has the halves 2n and
-/// 2n + 1; 0 where they are too small to be told apart.
-inline std::int64_t number_of_half(std::int64_t number, bool upper) {
-  return number == 0 || number >> 50 != 0 ? 0 : 2 * number + upper;
-}
-
 /// The sources on a part of their box, and the cubic nets there, as above. `to` may not be `from`.
 void restrict_to(const std::array<CubicSource, 2>& from, const Part& part,
                  std::array<CubicSource, 2>* to, CubicSystem* system);
 
-/// The same on the part with these numbers along x and y, which are not 0.
-void restrict_to(const std::array<CubicSource, 2>& from, const std::array<std::int64_t, 2>& number,
-                 std::array<CubicSource, 2>* to, CubicSystem* system);
+/// The sources on a box and the cubic nets there.
+struct SystemPatch {
+  std::array<CubicSource, 2> source;
+  CubicSystem net;
+};
+
+/// The same on the four quarters of their box; bit 0 of a quarter's number: it is the upper one in
+/// x, bit 1: in y. `from` may not be among them.
+void quarter(const std::array<CubicSource, 2>& from, SystemPatch* quarters);
 
 }  // namespace encase

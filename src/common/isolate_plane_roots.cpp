@@ -417,13 +417,13 @@ void PlaneRoots::look(const PlaneSubdivision<2>::Node& node, const CubicSystem& 
   if (has_slopes(last))
     restrict_to(last, part_of(chart_of(last_box), box), net);
   else
-    restrict_to(node.base->source, part_of(node.base->chart, box), &sources_, net);
+    restrict_to(node.net->source, part_of(chart_of(node.box), box), &sources_, net);
 }
 
 std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box<2>* part) {
-  test_system(node.net, kQuality, &verdict_);
+  test_system(node.net->net, kQuality, &verdict_);
   Box<2> box = node.box;
-  const CubicSystem* net = &node.net;
+  const CubicSystem* net = &node.net->net;
   for (int round = 0;; ++round) {
     if (verdict_.excluded) return cover::kExcluded;
     if (verdict_.contracts) return near(node.tile, box, verdict_);
@@ -467,9 +467,9 @@ RootIsolation<2> isolate_roots(Sought<2> sought, const std::vector<Line>& half_p
   const auto visit = [&](PlaneSubdivision<2>::Node& node) {
     roots.use(subdivision.polynomials());
     if (const auto token = roots.settle(node, &node.part)) return *token;
-    if (node.level < kSimpleLevels) return wider_axis(node.box);
+    if (node.level < kSimpleLevels) return PlaneSubdivision<2>::kQuarter;
     // Across the axis along which they change more: curves that touch or share a tangent there.
-    const auto [x, y] = relative_variation(node.net);
+    const auto [x, y] = relative_variation(node.net->net);
     return x >= y ? cover::kSplitX : cover::kSplitY;
   };
   result.tokens = subdivision.run(visit);

@@ -55,14 +55,6 @@ inline std::optional<bool> lies_inside(const Box<2>& box, const std::vector<Line
   return std::nullopt;
 }
 
-/// Two polynomials on one box, from which the cubic nets on boxes within it are made.
-struct CubicBase {
-  std::array<CubicSource, 2> source;
-  std::array<const Tile*, 2> tile;  ///< that they come from; their rectangles contain the box
-  Chart chart;                      ///< of the box
-  int expanded_at;                  ///< the level of the box that was expanded from the tiles
-};
-
 /// The subdivision of a box of the plane, with a patch of one polynomial on the boxes, or with
 /// cubic nets of two: then their common zeros are sought, and a box on which one keeps a sign is
 /// excluded.
@@ -73,23 +65,29 @@ struct CubicBase {
 template <int N>
 class PlaneSubdivision {
  public:
-  /// What `visit` is given: a box and the patches on it.
-  struct Node {
+  /// Where a node is, and what is known there but for the nets.
+  struct Place {
     Box<2> box;
-    std::conditional_t<N == 1, Patch, CubicSystem> net;
     /// The tiles that the net comes from. Their rectangles contain the box.
     std::array<const Tile*, N> tile{};
-    int expanded_at = 0;                   ///< the level of the box that the patch was made for
-    const CubicBase* base = nullptr;       ///< on a box that contains this one
-    std::array<std::int64_t, 2> number{};  ///< of this part of that one (common/cubic_source.hpp)
+    int expanded_at = 0;  ///< the level of the box that the tiles were expanded for
     /// The part, in the box's coordinates, outside of which nothing that is sought lies. A visitor
     /// may set it; halves that do not meet it are settled as excluded.
     Box<2> part;
-    int level = 0;        ///< number of halvings
+    int level = 0;   ///< number of halvings
+    int splits = 0;  ///< that led here from the first box of the band
+    int opens = 0;   ///< the token of a half of which this is the first quarter, or kNone
     bool inside = false;  ///< known to lie in all half planes
     bool has_net = false;
     bool excluded = false;
   };
+  /// What `visit` is given.
+  struct Node : Place {
+    /// The patch; or where the cubic nets and their sources are, once `has_net` is set.
+    std::conditional_t<N == 1, Patch, SystemPatch*> net;
+  };
+  /// The token with which a visitor splits a box across both axes.
+  static constexpr int kQuarter = Sought<N>::kLeaf - 1;
 
   PlaneSubdivision(Sought<N> sought, const std::vector<Line>& half_planes,
                    const SubdivisionLimits& limits, Kernel& kernel)
@@ -97,16 +95,16 @@ class PlaneSubdivision {
         half_planes_(half_planes),
         limits_(limits),
         kernel_(kernel),
-        stack_(taken_over(&spare_stack(), kLevelsPerBand + 2)) {
+        stack_(taken_over(&spare_stack(), 3 * kLevelsPerBand + 2)) {
     for (const auto& leaf : sought_.leaves)
       for (const TiledFunction* f : leaf.polynomials) has_gaps_ = has_gaps_ || !f->gaps().empty();
-    if (N == 2) bases_ = taken_over(&spare_bases(), kLevelsPerBand + 1);
+    if (N == 2) patches_ = taken_over(&spare_patches(), 4 * (kLevelsPerBand + 1));
   }
   PlaneSubdivision(const PlaneSubdivision&) = delete;
   PlaneSubdivision& operator=(const PlaneSubdivision&) = delete;
   ~PlaneSubdivision() {
     spare_stack() = std::move(stack_);
-    spare_bases() = std::move(bases_);
+    spare_patches() = std::move(patches_);
   }
   /// Of a whole box.
   PlaneSubdivision(const std::array<TiledFunction*, N>& polynomials, const Box<2>& root,
@@ -128,6 +126,7 @@ class PlaneSubdivision {
  private:
   static constexpr Box<2> kWhole{{-1, -1}, {1, 1}};
   static constexpr int kWaiting = Sought<N>::kLeaf;
+  static constexpr int kNone = 0;  // no split token
   static constexpr int kLevelsPerBand = 18;
 
   /// A tile made for one box, where those of the tree are too coarse; those of a node's ancestors
@@ -143,8 +142,8 @@ class PlaneSubdivision {
     static thread_local std::unique_ptr<Node[]> spare;
     return spare;
   }
-  static std::unique_ptr<CubicBase[]>& spare_bases() {
-    static thread_local std::unique_ptr<CubicBase[]> spare;
+  static std::unique_ptr<SystemPatch[]>& spare_patches() {
+    static thread_local std::unique_ptr<SystemPatch[]> spare;
     return spare;
   }
   template <class T>
@@ -159,9 +158,11 @@ class PlaneSubdivision {
   int token_of(Node& node, Visit visit);
   std::optional<int> token_at_gap(const Node& node);
   bool provide_net(Node& node);
-  bool expand_base(Node& node);
-  bool restrict_base(Node& node);
-  bool use_base(Node& node, CubicBase* base);
+  static void go_down(Place* place, const Box<2>& box, int levels);
+  void split_into_halves(int axis, const Box<2>* halves);
+  void restrict_net(const SystemPatch& from, const Box<2>& box, Node* node);
+  bool split_into_quarters(int axis, const Box<2>* halves);
+  int try_smaller(const Box<2>& box) const { return N == 1 ? wider_axis(box) : kQuarter; }
   template <class Net>
   bool make_net(const Node& node, int i, Net* net, const Tile** tile);
   bool outside(Node& node) const;
@@ -181,9 +182,10 @@ class PlaneSubdivision {
   };
   std::vector<Waiting> waiting_;
   std::unique_ptr<Node[]> stack_;
+  int top_ = 0;  ///< of the stack
   std::array<std::vector<Local>, N> local_;
-  std::unique_ptr<CubicBase[]> bases_;  ///< those of a node's ancestors, by level in the band
-  int first_level_ = 0;                 ///< of the band
+  /// Four for the children of each of a node's ancestors, by their number of splits.
+  std::unique_ptr<SystemPatch[]> patches_;
   int count_ = Patch::kMaxCount;        ///< of the patches' coefficients in either variable
   int boxes_ = 0;                       ///< visited; those that had to wait twice
   int deepest_ = 0;                     ///< the level beyond which nothing is halved
@@ -233,73 +235,137 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int bu
   if (N == 1) count_ = patch_count(polynomials_[0]->polynomial().degree());
   for (auto& list : local_) list.clear();
   const int last_level = std::min(level + kLevelsPerBand, deepest_);
-  first_level_ = level;
-  int top = 0;
-  stack_[0].box = box;
-  stack_[0].level = level;
-  stack_[0].inside = stack_[0].has_net = stack_[0].excluded = false;
-  stack_[0].part = kWhole;
-  stack_[0].tile = {};
-  stack_[0].base = nullptr;
+  Node& first = stack_[0];
+  first.box = box;
+  first.level = level;
+  first.splits = 0;
+  first.opens = kNone;
+  first.inside = first.has_net = first.excluded = false;
+  first.part = kWhole;
+  first.tile = {};
+  if constexpr (N == 2) first.net = &patches_[0];
+  top_ = 0;
   int here = 0;
-  while (top >= 0) {
-    Node& node = stack_[top];
+  while (top_ >= 0) {
+    Node& node = stack_[top_];
+    if (node.opens != kNone) tokens_.push_back(node.opens);
     // Those of ancestors stay: not that of the other half, which holds nothing of this one.
     for (auto& list : local_)
       while (!list.empty() && list.back().level >= node.level) list.pop_back();
     ++here;
     if (++boxes_ % 64 == 0 && !stopped_) stopped_ = limits_.stop && limits_.stop();
     const int token = stopped_ ? cover::kUnresolved : token_of(node, visit);
-    const bool split = token <= cover::kSplitX && token >= cover::kSplitZ;
-    if (!split) {
+    const bool is_split = token == kQuarter || (token <= cover::kSplitX && token >= cover::kSplitZ);
+    if (!is_split) {
       settle(token, node);
-      --top;
+      --top_;
       continue;
     }
-    const int axis = cover::kSplitX - token;
-    Box<2> lower, upper;
-    const bool divisible = halve_box(node.box, axis, &lower, &upper) &&
+    const int axis = cover::kSplitX - (token == kQuarter ? wider_axis(node.box) : token);
+    Box<2> halves[2];
+    const bool divisible = halve_box(node.box, axis, &halves[0], &halves[1]) &&
                            node.box.width(axis) > limits_.smallest * sought_.root.width(axis);
     if (!divisible || node.level >= last_level || here > budget) {
       tokens_.push_back(kWaiting);
       waiting_.push_back({node.box, divisible ? node.level : deepest_, leaf});
-      --top;
+      --top_;
       continue;
     }
     tokens_.push_back(cover::kSplitX - axis);
-    const Box<2> part = node.part;
-    // The node becomes its upper half, the lower one goes on top of it.
-    Node& second = node;
-    Node& first = stack_[++top];
-    first.tile = second.tile;
-    first.expanded_at = second.expanded_at;
-    first.base = second.base;
-    first.number = second.number;
-    first.number[axis] = number_of_half(second.number[axis], false);
-    second.number[axis] = number_of_half(second.number[axis], true);
-    first.level = ++second.level;
-    first.inside = second.inside;
-    first.has_net = second.has_net;
-    first.box = lower;
-    second.box = upper;
-    first.excluded = part.lo[axis] > 0;
-    second.excluded = part.hi[axis] < 0;
-    if (second.has_net) {
-      if constexpr (N == 1) {
-        halve(second.net, axis, true, &first.net, &second.net);
-      } else {
-        const auto excluded = halve(second.net, axis, &first.net, &second.net);
-        first.excluded = first.excluded || excluded[0];
-        second.excluded = second.excluded || excluded[1];
-      }
-    }
-    first.part = second.part = part;
+    if constexpr (N == 2)
+      if (token == kQuarter && node.level + 2 <= last_level && split_into_quarters(axis, halves))
+        continue;
+    split_into_halves(axis, halves);
+  }
+}
+
+/// A place in one of the halves of another, or in a quarter, which are `levels` halvings below.
+template <int N>
+void PlaneSubdivision<N>::go_down(Place* place, const Box<2>& box, int levels) {
+  place->box = box;
+  place->level += levels;
+  ++place->splits;
+  place->opens = kNone;
+}
+
+/// The node becomes its upper half, the lower one goes on top of it.
+template <int N>
+void PlaneSubdivision<N>::split_into_halves(int axis, const Box<2>* halves) {
+  const Place place = stack_[top_];
+  Node* const child[2] = {&stack_[top_ + 1], &stack_[top_]};
+  ++top_;
+  for (int k = 0; k < 2; ++k) {
+    static_cast<Place&>(*child[k]) = place;
+    go_down(child[k], halves[k], 1);
+    child[k]->excluded = k == 0 ? place.part.lo[axis] > 0 : place.part.hi[axis] < 0;
     // After one halving across an axis the patches tell more than the part.
-    for (Node* child : {&first, &second}) {
-      child->part.lo[axis] = -1;
-      child->part.hi[axis] = 1;
+    child[k]->part.lo[axis] = -1;
+    child[k]->part.hi[axis] = 1;
+  }
+  if constexpr (N == 1) {
+    if (place.has_net) halve(child[1]->net, axis, true, &child[0]->net, &child[1]->net);
+  } else {
+    const SystemPatch* from = child[1]->net;
+    for (int k = 0; k < 2; ++k) {
+      child[k]->net = &patches_[4 * child[k]->splits + k];
+      if (place.has_net && !child[k]->excluded) restrict_net(*from, place.box, child[k]);
     }
   }
+}
+
+/// The nets on a part of a box that has nets.
+template <>
+inline void PlaneSubdivision<2>::restrict_net(const SystemPatch& from, const Box<2>& box,
+                                              Node* node) {
+  restrict_to(from.source, part_of(chart_of(box), node->box), &node->net->source,
+              &node->net->net);
+  node->excluded = node->net->net.excluded();
+}
+
+/// The node becomes its quarters, in the order of their tokens; but a half that is excluded stays
+/// whole. False if they would be too thin or the box has no double in its middle.
+template <>
+inline bool PlaneSubdivision<2>::split_into_quarters(int axis, const Box<2>* halves) {
+  const int other = 1 - axis;
+  const Place place = stack_[top_];
+  if (wider_axis(halves[0]) != cover::kSplitX - other || !halves_exactly(place.box)) return false;
+  Box<2> boxes[2][2];
+  for (int k = 0; k < 2; ++k)
+    if (!halve_box(halves[k], other, &boxes[k][0], &boxes[k][1])) return false;
+  const SystemPatch* from = stack_[top_].net;
+  const auto misses = [&](int a, int upper) {
+    return upper == 0 ? place.part.lo[a] > 0 : place.part.hi[a] < 0;
+  };
+  int wanted = 0;
+  for (int k = 0; k < 4; ++k) wanted += !misses(axis, k / 2) && !misses(other, k % 2);
+  SystemPatch* const patches = &patches_[4 * (place.splits + 1)];
+  if (place.has_net && wanted > 1) quarter(from->source, patches);
+  // The last one comes lowest on the stack.
+  for (int k = 1; k >= 0; --k) {
+    if (misses(axis, k)) {
+      Node& half = stack_[top_++];
+      static_cast<Place&>(half) = place;
+      go_down(&half, halves[k], 1);
+      half.excluded = true;
+      continue;
+    }
+    for (int m = 1; m >= 0; --m) {
+      Node& node = stack_[top_++];
+      static_cast<Place&>(node) = place;
+      go_down(&node, boxes[k][m], 2);
+      if (m == 0) node.opens = cover::kSplitX - other;
+      node.part = kWhole;
+      node.excluded = misses(other, m);
+      node.net = patches + ((k << axis) | (m << other));
+      if (!place.has_net || node.excluded) continue;
+      if (wanted > 1)
+        node.excluded = node.net->net.excluded();
+      else
+        restrict_net(*from, place.box, &node);
+    }
+  }
+  --top_;
+  return true;
 }
 
 template <int N>
@@ -321,7 +387,7 @@ template <class Visit>
 int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
   if (node.excluded) return cover::kExcluded;
   // A half that is free need not be asked about.
-  if (node.has_net)
+  if (N == 2 && node.has_net)
     for (int axis = 0; axis < 2; ++axis)
       if ((node.part.hi[axis] < 0 || node.part.lo[axis] > 0) &&
           node.box.width(axis) > 0.3 * node.box.width(1 - axis))
@@ -330,11 +396,11 @@ int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
   if (!node.inside && outside(node)) return cover::kOutside;
   if (has_gaps_)
     if (const auto token = token_at_gap(node)) return *token;
-  if (!provide_net(node)) return node.excluded ? cover::kExcluded : wider_axis(node.box);
+  if (!provide_net(node)) return node.excluded ? cover::kExcluded : try_smaller(node.box);
   if (has_gaps_)
     for (int i = 0; i < N; ++i)
       if (polynomials_[i]->wants_smaller(*node.tile[i]) && !tells(node.net, i))
-        return wider_axis(node.box);
+        return try_smaller(node.box);
   return visit(node);
 }
 
@@ -392,12 +458,14 @@ inline bool coarse(const CubicSource& source, int level) {
   return !(source.radius <= tolerated(level, 0x1p-4) * source.size);
 }
 
-inline bool coarse(const CubicSystem& system, int level) {
+/// (What the cubic nets leave out is no matter of the sources.)
+inline bool coarse(const SystemPatch& patch, int level) {
   const double of_value = tolerated(level, 0.06), of_slope = tolerated(level, 4);
   for (int i = 0; i < 2; ++i) {
-    const double slope_radius = std::max(system.slope_radius[i][0], system.slope_radius[i][1]);
-    if (!(system.radius[i] <= of_value * system.magnitude(i) &&
-          slope_radius <= of_slope * (system.hi[i] - system.lo[i])))
+    const CubicSource& source = patch.source[i];
+    const double slope_radius = std::max(source.slope_radius[0], source.slope_radius[1]);
+    if (!(source.radius <= of_value * patch.net.magnitude(i) &&
+          slope_radius <= of_slope * (patch.net.hi[i] - patch.net.lo[i])))
       return true;
   }
   return false;
@@ -428,8 +496,8 @@ inline bool too_large(const CubicSource& source, int level) {
 
 /// Whether a net says anything of a function.
 inline bool tells(const Patch& patch, int) { return patch.radius < 0.25 * patch.magnitude(); }
-inline bool tells(const CubicSystem& system, int i) {
-  return system.radius[i] < 0.25 * system.magnitude(i);
+inline bool tells(const SystemPatch* patch, int i) {
+  return patch->net.radius[i] < 0.25 * patch->net.magnitude(i);
 }
 
 /// Makes the node's net where it is missing or too coarse; false if there is none, because the box
@@ -444,67 +512,27 @@ inline bool PlaneSubdivision<1>::provide_net(Node& node) {
   return true;
 }
 
-/// Whether the node's cubic nets, which come from its own base, are close enough to the
-/// polynomials, or prove at once that the box is excluded.
-template <>
-inline bool PlaneSubdivision<2>::use_base(Node& node, CubicBase* base) {
-  base->chart = chart_of(node.box);
-  node.base = base;
-  node.number = {1, 1};
-  node.has_net = true;
-  node.excluded = node.net.excluded();
-  return node.excluded || !coarse(node.net, node.level);
-}
-
-/// Gives the node a base on its own box from the tiles; false if that is too large, or excluded at
-/// once.
-template <>
-inline bool PlaneSubdivision<2>::expand_base(Node& node) {
-  CubicBase& base = bases_[node.level - first_level_];
-  base.tile = node.tile;
-  base.expanded_at = node.level;
-  for (int i = 0; i < 2; ++i) {
-    CubicSource& source = base.source[i];
-    source.radius = node.has_net ? node.net.radius[i] : HUGE_VAL;
-    if (!make_net(node, i, &source, &base.tile[i])) return false;
-    node.excluded = source.has_sign();
-    if (node.excluded) return false;
-  }
-  node.tile = base.tile;
-  cut_off(base.source, &node.net);
-  use_base(node, &base);
-  return true;
-}
-
-/// The same from the last base, if something can be expected of it; whether it serves.
-template <>
-inline bool PlaneSubdivision<2>::restrict_base(Node& node) {
-  const CubicBase& from = *node.base;
-  CubicBase& base = bases_[node.level - first_level_];
-  if (&base == &from) return false;
-  const double half = std::max(node.box.width(0) / (2 * from.chart[0].half),
-                               node.box.width(1) / (2 * from.chart[1].half));
-  if (node.level <= kUsualLevels)
-    for (const CubicSource& source : from.source)
-      if (source.radius > 0.1 * source.size * half) return false;
-  if (node.number[0] > 0 && node.number[1] > 0)
-    restrict_to(from.source, node.number, &base.source, &node.net);
-  else
-    restrict_to(from.source, part_of(from.chart, node.box), &base.source, &node.net);
-  base.tile = from.tile;
-  base.expanded_at = from.expanded_at;
-  return use_base(node, &base);
-}
-
 template <>
 inline bool PlaneSubdivision<2>::provide_net(Node& node) {
-  if (node.has_net && !coarse(node.net, node.level)) return true;
-  if (node.base && restrict_base(node)) return !node.excluded;
+  if (node.has_net && !coarse(*node.net, node.level)) return true;
   // From the tiles, unless that was done on a box that is hardly larger.
   const int between = node.level <= kUsualLevels ? 4 : 1;
-  if (!node.base || node.base->expanded_at + between <= node.level)
-    if (!expand_base(node)) return false;
-  return node.has_net && !node.excluded;
+  if (node.has_net && node.expanded_at + between > node.level) return true;
+  std::array<CubicSource, 2> sources;
+  std::array<const Tile*, 2> tiles = node.tile;
+  for (int i = 0; i < 2; ++i) {
+    sources[i].radius = node.has_net ? node.net->net.radius[i] : HUGE_VAL;
+    if (!make_net(node, i, &sources[i], &tiles[i])) return false;
+    node.excluded = sources[i].has_sign();
+    if (node.excluded) return false;
+  }
+  node.tile = tiles;
+  node.expanded_at = node.level;
+  node.net->source = sources;
+  cut_off(sources, &node.net->net);
+  node.has_net = true;
+  node.excluded = node.net->net.excluded();
+  return !node.excluded;
 }
 
 /// A net on the node's box from a tile, which replaces the one that was used last; `net->radius` is
