@@ -17,7 +17,7 @@ namespace {
 constexpr double kQuality = 0.8;
 constexpr double kUp = 1 + 0x1p-40;
 constexpr int kCloserLooks = 3;
-constexpr double kSmallPart = 0.4;  // of a box's area
+constexpr double kSmallPart = 0.3;  // of a box's area
 constexpr int kSimpleLevels = 16;   // of halvings, after which most crossings are told apart
 
 /// The distance to the next double away from zero, and towards it.
@@ -78,8 +78,6 @@ class PlaneRoots {
                                      Approximation a) const;
   std::optional<Enclosure> tight_box_at(const Tiles& tiles, const Box<2>& around,
                                         const Approximation& a, Point<2>* d) const;
-  void look(const PlaneSubdivision<2>::Node& node, const CubicSystem& last, const Box<2>& last_box,
-            const Box<2>& box, CubicSystem* net);
   std::optional<Contraction<2>> contraction_around(const Box<2>& around, Tiles* tiles);
   std::optional<Box<2>> enclose(const Tiles& tiles, const Box<2>& around, const Contraction<2>& c,
                                 Point<2> x) const;
@@ -90,8 +88,7 @@ class PlaneRoots {
   std::array<TiledFunction*, 2> system_{};
   Kernel& kernel_;
   std::array<Tile, 2> around_tiles_;
-  std::array<CubicSource, 2> sources_;
-  std::array<CubicSystem, 2> nets_;
+  std::array<SystemNet, 2> nets_;
   SystemVerdict verdict_;
 };
 
@@ -252,9 +249,9 @@ std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& aroun
       tile = &around_tiles_[i];
     }
   }
-  for (int i = 0; i < 2; ++i) expand(*(*tiles)[i], around, &sources_[i]);
-  CubicSystem net;
-  cut_off(sources_, &net);
+  SystemNet net;
+  int count = 3;for(int i=0;i<2;++i)count=std::max(count,patch_count((*tiles)[i]->degree));
+  for (int i = 0; i < 2; ++i) expand(*(*tiles)[i], around, count, &net.of[i]);
   SystemVerdict verdict;
   test_system(net, kQuality, &verdict);
   if (!verdict.contracts) return std::nullopt;
@@ -402,28 +399,10 @@ Box<2> inner_box(const Box<2>& box, const Box<2>& local) {
   return part;
 }
 
-/// Whether the slopes of a net tell something about those of the polynomials.
-bool has_slopes(const CubicSystem& net) {
-  for (int i = 0; i < 2; ++i)
-    if (!(std::max(net.slope_radius[i][0], net.slope_radius[i][1]) <
-          0.08 * (net.hi[i] - net.lo[i])))
-      return false;
-  return true;
-}
-
-/// The net on a part of the node's box: from the one on a larger part, or from the node's base.
-void PlaneRoots::look(const PlaneSubdivision<2>::Node& node, const CubicSystem& last,
-                      const Box<2>& last_box, const Box<2>& box, CubicSystem* net) {
-  if (has_slopes(last))
-    restrict_to(last, part_of(chart_of(last_box), box), net);
-  else
-    restrict_to(node.net->source, part_of(chart_of(node.box), box), &sources_, net);
-}
-
 std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box<2>* part) {
-  test_system(node.net->net, kQuality, &verdict_);
+  test_system(*node.net, kQuality, &verdict_);
   Box<2> box = node.box;
-  const CubicSystem* net = &node.net->net;
+  const SystemNet* net = node.net;
   for (int round = 0;; ++round) {
     if (verdict_.excluded) return cover::kExcluded;
     if (verdict_.contracts) return near(node.tile, box, verdict_);
@@ -442,8 +421,8 @@ std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box
       return std::nullopt;
     const Box<2> inner = inner_box(box, zeros);
     if (!(inner.width(0) > 0 && inner.width(1) > 0)) return std::nullopt;
-    CubicSystem& next = nets_[round % 2];
-    look(node, *net, box, inner, &next);
+    SystemNet& next = nets_[round % 2];
+    restrict_to(*net, part_of(chart_of(box), inner), &next);
     if (next.excluded()) return cover::kExcluded;
     test_system(next, kQuality, &verdict_);
     net = &next;
@@ -469,7 +448,7 @@ RootIsolation<2> isolate_roots(Sought<2> sought, const std::vector<Line>& half_p
     if (const auto token = roots.settle(node, &node.part)) return *token;
     if (node.level < kSimpleLevels) return PlaneSubdivision<2>::kQuarter;
     // Across the axis along which they change more: curves that touch or share a tangent there.
-    const auto [x, y] = relative_variation(node.net->net);
+    const auto [x, y] = relative_variation(*node.net);
     return x >= y ? cover::kSplitX : cover::kSplitY;
   };
   result.tokens = subdivision.run(visit);

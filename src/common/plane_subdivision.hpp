@@ -12,10 +12,10 @@
 
 #include "common/analytic_gaps.hpp"
 #include "common/box_tests.hpp"
-#include "common/cubic_source.hpp"
 #include "common/patch.hpp"
 #include "common/sought.hpp"
 #include "common/subdivision.hpp"
+#include "common/system_net.hpp"
 #include "common/tile.hpp"
 
 namespace encase {
@@ -84,7 +84,7 @@ class PlaneSubdivision {
   /// What `visit` is given.
   struct Node : Place {
     /// The patch; or where the cubic nets and their sources are, once `has_net` is set.
-    std::conditional_t<N == 1, Patch, SystemPatch*> net;
+    std::conditional_t<N == 1, Patch, SystemNet*> net;
   };
   /// The token with which a visitor splits a box across both axes.
   static constexpr int kQuarter = Sought<N>::kLeaf - 1;
@@ -142,8 +142,8 @@ class PlaneSubdivision {
     static thread_local std::unique_ptr<Node[]> spare;
     return spare;
   }
-  static std::unique_ptr<SystemPatch[]>& spare_patches() {
-    static thread_local std::unique_ptr<SystemPatch[]> spare;
+  static std::unique_ptr<SystemNet[]>& spare_patches() {
+    static thread_local std::unique_ptr<SystemNet[]> spare;
     return spare;
   }
   template <class T>
@@ -160,7 +160,7 @@ class PlaneSubdivision {
   bool provide_net(Node& node);
   static void go_down(Place* place, const Box<2>& box, int levels);
   void split_into_halves(int axis, const Box<2>* halves);
-  void restrict_net(const SystemPatch& from, const Box<2>& box, Node* node);
+  void restrict_net(const SystemNet& from, const Box<2>& box, Node* node);
   bool split_into_quarters(int axis, const Box<2>* halves);
   int try_smaller(const Box<2>& box) const { return N == 1 ? wider_axis(box) : kQuarter; }
   template <class Net>
@@ -185,7 +185,8 @@ class PlaneSubdivision {
   int top_ = 0;  ///< of the stack
   std::array<std::vector<Local>, N> local_;
   /// Four for the children of each of a node's ancestors, by their number of splits.
-  std::unique_ptr<SystemPatch[]> patches_;
+  std::unique_ptr<SystemNet[]> patches_;
+  SystemNet spare_net_;
   int count_ = Patch::kMaxCount;        ///< of the patches' coefficients in either variable
   int boxes_ = 0;                       ///< visited; those that had to wait twice
   int deepest_ = 0;                     ///< the level beyond which nothing is halved
@@ -232,7 +233,7 @@ template <int N>
 template <class Visit>
 void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int budget, Visit visit) {
   polynomials_ = sought_.leaves[static_cast<std::size_t>(leaf)].polynomials;
-  if (N == 1) count_ = patch_count(polynomials_[0]->polynomial().degree());
+  count_ = 3;for(int i=0;i<N;++i)count_=std::max(count_,patch_count(polynomials_[i]->polynomial().degree()));
   for (auto& list : local_) list.clear();
   const int last_level = std::min(level + kLevelsPerBand, deepest_);
   Node& first = stack_[0];
@@ -261,7 +262,11 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int bu
       --top_;
       continue;
     }
-    const int axis = cover::kSplitX - (token == kQuarter ? wider_axis(node.box) : token);
+    int axis = cover::kSplitX - (token == kQuarter ? wider_axis(node.box) : token);
+    if constexpr (N == 2)
+      if (token == kQuarter && node.has_net && node.box.width(0) < 1.9 * node.box.width(1) &&
+          node.box.width(1) < 1.9 * node.box.width(0))
+        axis = node.net->of[0].rows_axis;
     Box<2> halves[2];
     const bool divisible = halve_box(node.box, axis, &halves[0], &halves[1]) &&
                            node.box.width(axis) > limits_.smallest * sought_.root.width(axis);
@@ -305,7 +310,7 @@ void PlaneSubdivision<N>::split_into_halves(int axis, const Box<2>* halves) {
   if constexpr (N == 1) {
     if (place.has_net) halve(child[1]->net, axis, true, &child[0]->net, &child[1]->net);
   } else {
-    const SystemPatch* from = child[1]->net;
+    const SystemNet* from = child[1]->net;
     for (int k = 0; k < 2; ++k) {
       child[k]->net = &patches_[4 * child[k]->splits + k];
       if (place.has_net && !child[k]->excluded) restrict_net(*from, place.box, child[k]);
@@ -315,11 +320,10 @@ void PlaneSubdivision<N>::split_into_halves(int axis, const Box<2>* halves) {
 
 /// The nets on a part of a box that has nets.
 template <>
-inline void PlaneSubdivision<2>::restrict_net(const SystemPatch& from, const Box<2>& box,
+inline void PlaneSubdivision<2>::restrict_net(const SystemNet& from, const Box<2>& box,
                                               Node* node) {
-  restrict_to(from.source, part_of(chart_of(box), node->box), &node->net->source,
-              &node->net->net);
-  node->excluded = node->net->net.excluded();
+  restrict_to(from, part_of(chart_of(box), node->box), node->net);
+  node->excluded = node->net->excluded();
 }
 
 /// The node becomes its quarters, in the order of their tokens; but a half that is excluded stays
@@ -328,21 +332,30 @@ template <>
 inline bool PlaneSubdivision<2>::split_into_quarters(int axis, const Box<2>* halves) {
   const int other = 1 - axis;
   const Place place = stack_[top_];
-  if (wider_axis(halves[0]) != cover::kSplitX - other || !halves_exactly(place.box)) return false;
+  if (wider_axis(halves[0]) != cover::kSplitX - other || !halves_exactly(place.box) ||
+      (place.has_net && stack_[top_].net->of[0].rows_axis != axis))
+    return false;
   Box<2> boxes[2][2];
   for (int k = 0; k < 2; ++k)
     if (!halve_box(halves[k], other, &boxes[k][0], &boxes[k][1])) return false;
-  const SystemPatch* from = stack_[top_].net;
+  const SystemNet* from = stack_[top_].net;
   const auto misses = [&](int a, int upper) {
     return upper == 0 ? place.part.lo[a] > 0 : place.part.hi[a] < 0;
   };
   int wanted = 0;
   for (int k = 0; k < 4; ++k) wanted += !misses(axis, k / 2) && !misses(other, k % 2);
-  SystemPatch* const patches = &patches_[4 * (place.splits + 1)];
-  if (place.has_net && wanted > 1) quarter(from->source, patches);
+  SystemNet* const patches = &patches_[4 * (place.splits + 1)];
+  std::array<bool, 2> empty{misses(axis, 0), misses(axis, 1)};
+  std::array<std::array<bool, 2>, 2> none{};
+  if (place.has_net && wanted > 1) {
+    SystemNet* quarters[4];bool ex[4];
+    for (int q = 0; q < 4; ++q) quarters[q] = &patches[(q % 2 << axis) | (q / 2 << other)];
+    quarter(*from, &empty, quarters, ex);
+    for (int q = 0; q < 4; ++q) none[q % 2][q / 2] = ex[q];
+  }
   // The last one comes lowest on the stack.
   for (int k = 1; k >= 0; --k) {
-    if (misses(axis, k)) {
+    if (empty[k]) {
       Node& half = stack_[top_++];
       static_cast<Place&>(half) = place;
       go_down(&half, halves[k], 1);
@@ -359,7 +372,7 @@ inline bool PlaneSubdivision<2>::split_into_quarters(int axis, const Box<2>* hal
       node.net = patches + ((k << axis) | (m << other));
       if (!place.has_net || node.excluded) continue;
       if (wanted > 1)
-        node.excluded = node.net->net.excluded();
+        node.excluded = none[k][m];
       else
         restrict_net(*from, place.box, &node);
     }
@@ -454,18 +467,12 @@ inline bool coarse(const Patch& patch, int level) {
            slope_radius <= part * (patch.hi - patch.lo));
 }
 
-inline bool coarse(const CubicSource& source, int level) {
-  return !(source.radius <= tolerated(level, 0x1p-4) * source.size);
-}
-
-/// (What the cubic nets leave out is no matter of the sources.)
-inline bool coarse(const SystemPatch& patch, int level) {
+inline bool coarse(const SystemNet& net, int level) {
   const double of_value = tolerated(level, 0.06), of_slope = tolerated(level, 4);
-  for (int i = 0; i < 2; ++i) {
-    const CubicSource& source = patch.source[i];
-    const double slope_radius = std::max(source.slope_radius[0], source.slope_radius[1]);
-    if (!(source.radius <= of_value * patch.net.magnitude(i) &&
-          slope_radius <= of_slope * (patch.net.hi[i] - patch.net.lo[i])))
+  for (const Patch& patch : net.of) {
+    const double slope_radius = std::max(patch.slope_radius[0], patch.slope_radius[1]);
+    if (!(patch.radius <= of_value * patch.magnitude() &&
+          slope_radius <= of_slope * (patch.hi - patch.lo)))
       return true;
   }
   return false;
@@ -475,30 +482,22 @@ inline bool coarse(const SystemPatch& patch, int level) {
 inline bool is_settled(const TiledFunction& f, const Patch& patch) {
   return !f.polynomial().is_polynomial() && patch.sign().has_value();
 }
-inline bool is_settled(const TiledFunction& f, const CubicSource& source) {
-  return !f.polynomial().is_polynomial() && source.has_sign();
-}
 
 /// Whether a net on the box is not worth trying. (Nets tell by themselves how far they are; of high
 /// degrees they are tried on every other level.)
 inline bool hopeless(const Tile& tile, int level) { return tile.degree > 7 && level % 2 == 1; }
 
 /// Whether a smaller box should have the first net.
-inline bool too_large(const Patch& patch, int level) {
-  return coarse(patch, level) && patch.left_out > 0.5 * patch.radius;
-}
-/// (What a source lacks must not matter on parts of its box, the more of which there are the larger
-/// it is.)
-inline bool too_large(const CubicSource& source, int level) {
-  return source.left_out > std::ldexp(source.size, std::min(-10, level - 18)) &&
-         source.left_out > 0.5 * source.radius;
+template <int N>
+bool too_large(const Patch& patch, int level) {
+  if (!(patch.left_out > 0.5 * patch.radius)) return false;
+  return N == 1 ? coarse(patch, level)
+                : patch.left_out > std::ldexp(patch.magnitude(), std::min(-10, level - 18));
 }
 
 /// Whether a net says anything of a function.
 inline bool tells(const Patch& patch, int) { return patch.radius < 0.25 * patch.magnitude(); }
-inline bool tells(const SystemPatch* patch, int i) {
-  return patch->net.radius[i] < 0.25 * patch->net.magnitude(i);
-}
+inline bool tells(const SystemNet* net, int i) { return tells(net->of[i], 0); }
 
 /// Makes the node's net where it is missing or too coarse; false if there is none, because the box
 /// is too large or excluded at once.
@@ -516,23 +515,21 @@ template <>
 inline bool PlaneSubdivision<2>::provide_net(Node& node) {
   if (node.has_net && !coarse(*node.net, node.level)) return true;
   // From the tiles, unless that was done on a box that is hardly larger.
-  const int between = node.level <= kUsualLevels ? 4 : 1;
+  const int between = node.level <= kUsualLevels ? 2 : 1;
   if (node.has_net && node.expanded_at + between > node.level) return true;
-  std::array<CubicSource, 2> sources;
+  SystemNet& net = spare_net_;
   std::array<const Tile*, 2> tiles = node.tile;
   for (int i = 0; i < 2; ++i) {
-    sources[i].radius = node.has_net ? node.net->net.radius[i] : HUGE_VAL;
-    if (!make_net(node, i, &sources[i], &tiles[i])) return false;
-    node.excluded = sources[i].has_sign();
+    net.of[i].radius = node.has_net ? node.net->of[i].radius : HUGE_VAL;
+    if (!make_net(node, i, &net.of[i], &tiles[i])) return false;
+    node.excluded = net.of[i].sign().has_value();
     if (node.excluded) return false;
   }
   node.tile = tiles;
   node.expanded_at = node.level;
-  node.net->source = sources;
-  cut_off(sources, &node.net->net);
+  *node.net = net;
   node.has_net = true;
-  node.excluded = node.net->net.excluded();
-  return !node.excluded;
+  return true;
 }
 
 /// A net on the node's box from a tile, which replaces the one that was used last; `net->radius` is
@@ -541,10 +538,7 @@ template <int N>
 template <class Net>
 bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile** used) {
   const auto make = [&](const Tile& tile) {
-    if constexpr (std::is_same_v<Net, Patch>)
-      expand(tile, node.box, count_, net);
-    else
-      expand(tile, node.box, net);
+    expand(tile, node.box, count_, net);
   };
   const bool has_local = !local_[i].empty();  // of an ancestor
   if (node.level < 2 * kLevelsPerBand || has_local) {
@@ -559,7 +553,7 @@ bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile
     if (!*used && hopeless(*tile, node.level)) return false;
     if (within) {
       make(*tile);
-      if (!*used && too_large(*net, node.level)) return false;
+      if (!*used && too_large<N>(*net, node.level)) return false;
       *used = tile;
       // What is lost by the low degree shrinks with the box.
       if (!coarse(*net, node.level) || net->left_out > 0.5 * net->radius) return true;
