@@ -2,7 +2,6 @@
 #include "common/cubic_source.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -10,17 +9,11 @@
 #define HWY_TARGET_INCLUDE "common/cubic_source.cpp"
 #include <hwy/foreach_target.h>
 
-#include "common/row_ranges-inl.hpp"
+#include "common/simd_rows-inl.hpp"
 
 #ifndef ENCASE_CUBIC_SOURCE_SHARED
 #define ENCASE_CUBIC_SOURCE_SHARED
 namespace encase {
-
-/// Sums over the coefficients of either Chebyshev net, in halves of eight: of all absolute values;
-/// of those that cubics leave out; and of these times the squares of the rows' and lanes' indices.
-struct NetSums {
-  alignas(64) double of[2][4];
-};
 
 /// Sums over a Chebyshev net: of the absolute values of the coefficients of degrees up to 7; of the
 /// others; and of these times the squares of the rows' and lanes' indices.
@@ -32,17 +25,6 @@ struct HighSums {
 struct alignas(64) Powers {
   static constexpr int kRow = Tile::kRow;
   double m[kRow][kRow];
-};
-
-/// Where the nets of one quarter of a box go.
-struct QuarterNets {
-  double* source[2];
-  double* cubic;
-};
-
-/// T_i(origin + half s), i < 8: row i has its coefficients in T_0(s), ..., T_7(s).
-struct alignas(64) Substitution {
-  double m[8][8];
 };
 
 namespace {
@@ -58,74 +40,6 @@ constexpr Squares kSquares{{0, 1, 4, 9, 16, 25, 36, 49, 64, 81, 100, 121, 144, 1
 
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
-
-/// Chebyshev coefficients of degree 3 across rows, turned into Bernstein ones.
-HWY_INLINE void to_bernstein(Row* c) {
-  const Row third = Row::all(1.0 / 3), five_thirds = Row::all(5.0 / 3), five = Row::all(5);
-  const Row even = c[0] + c[2], odd = c[1] + c[3];
-  const Row inner_even = c[0] - c[2] * five_thirds, inner_odd = c[3] * five - c[1] * third;
-  c[0] = even - odd;
-  c[1] = inner_even + inner_odd;
-  c[2] = inner_even - inner_odd;
-  c[3] = even + odd;
-}
-
-/// a's lanes 0 to 3, then b's.
-HWY_INLINE Row lower_halves(const Row& a, const Row& b) {
-  Row r;
-#if HWY_MAX_BYTES == 64
-  r.part[0] = hn::ConcatLowerLower(Lanes(), b.part[0], a.part[0]);
-#else
-  for (int k = 0; k < kParts / 2; ++k) {
-    r.part[k] = a.part[k];
-    r.part[kParts / 2 + k] = b.part[k];
-  }
-#endif
-  return r;
-}
-
-/// Of the absolute values of a Chebyshev net's coefficients, by lanes: all; those with an index
-/// above 3; and these times the squares of the rows' and of the lanes' indices.
-HWY_INLINE void add_up(const Row* c, Row* result) {
-  const Row a1 = absolute(c[1]), a2 = absolute(c[2]), a3 = absolute(c[3]);
-  const Row a4 = absolute(c[4]), a5 = absolute(c[5]), a6 = absolute(c[6]), a7 = absolute(c[7]);
-  const Row low = (absolute(c[0]) + a1) + (a2 + a3), high = (a4 + a5) + (a6 + a7);
-  const Row none = Row::all(0);
-  const Row dropped = high + first_lanes(none, low, 4);
-  const Row low_squares = a1 + (a2 * Row::all(4) + a3 * Row::all(9));
-  const Row high_squares =
-      (a4 * Row::all(16) + a5 * Row::all(25)) + (a6 * Row::all(36) + a7 * Row::all(49));
-  result[0] = low + high;
-  result[1] = dropped;
-  result[2] = high_squares + first_lanes(none, low_squares, 4);
-  result[3] = dropped * Row::load(kSquares.lane);
-}
-
-/// The cubic parts of two Chebyshev nets as Bernstein nets, their rows along the nets' lanes.
-HWY_INLINE void cut_off_rows(const Row* f, const Row* g, double* to, PairedExtremes* extremes,
-                             NetSums* sums) {
-  Row s[8], rows[4];
-  add_up(f, s);
-  add_up(g, s + 4);
-  transpose(s);
-  (((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]))).store(sums->of[0]);
-  for (int i = 0; i < 4; ++i) rows[i] = lower_halves(f[i], g[i]);
-  to_bernstein(rows);
-  transpose_halves(rows);
-  to_bernstein(rows);
-  for (int i = 0; i < 4; ++i) rows[i].store(to + 8 * i);
-  *extremes = range_of_rows(rows).extremes();
-}
-
-void cut_off_nets(const double* f, const double* g, double* to, PairedExtremes* extremes,
-                  NetSums* sums) {
-  Row nets[2][8];
-  for (int i = 0; i < 8; ++i) {
-    nets[0][i] = Row::load(f + 8 * i);
-    nets[1][i] = Row::load(g + 8 * i);
-  }
-  cut_off_rows(nets[0], nets[1], to, extremes, sums);
-}
 
 /// Sums of the rows up to `last` with eight columns of a matrix.
 HWY_INLINE void combine_rows(const Row* rows, int last, const double* matrix, Row* result) {
@@ -182,103 +96,6 @@ void expand_powers(const double* a, int degree, const double* of_x, const double
            sum_of_lanes(lane_squares)};
 }
 
-/// A Chebyshev net of N rows on a part along their axis: T_i there is the sum over k of m[i][k]
-/// T_k.
-template <int N>
-HWY_INLINE void substitute_rows(const double* m, Row* c) {
-#pragma GCC unroll 8
-  for (int k = 0; k < N; ++k) {
-    Row sum = c[k] * Row::all(m[8 * k + k]);
-#pragma GCC unroll 8
-    for (int i = k + 1; i < N; ++i) sum = sum + c[i] * Row::all(m[8 * i + k]);
-    c[k] = sum;
-  }
-}
-
-/// Two Chebyshev nets on a part of their box, transposed, and their cubic parts as above. A matrix
-/// belongs to each axis, or none where the part is as wide as the box.
-template <int N>
-void restrict_nets_of(const double* f, const double* g, const double* of_rows,
-                      const double* of_lanes, double* to_f, double* to_g, double* to,
-                      PairedExtremes* extremes, NetSums* sums) {
-  Row nets[2][8];
-  for (int k = 0; k < 2; ++k) {
-    Row* net = nets[k];
-    for (int i = 0; i < 8; ++i) net[i] = Row::load((k == 0 ? f : g) + 8 * i);
-    if (of_rows) substitute_rows<N>(of_rows, net);
-    transpose(net);
-    if (of_lanes) substitute_rows<N>(of_lanes, net);
-    for (int i = 0; i < 8; ++i) net[i].store((k == 0 ? to_f : to_g) + 8 * i);
-  }
-  cut_off_rows(nets[0], nets[1], to, extremes, sums);
-}
-
-void restrict_nets(int count, const double* f, const double* g, const double* of_rows,
-                   const double* of_lanes, double* to_f, double* to_g, double* to,
-                   PairedExtremes* extremes, NetSums* sums) {
-  const auto run = count <= 5   ? restrict_nets_of<5>
-                   : count == 6 ? restrict_nets_of<6>
-                   : count == 7 ? restrict_nets_of<7>
-                                : restrict_nets_of<8>;
-  run(f, g, of_rows, of_lanes, to_f, to_g, to, extremes, sums);
-}
-
-/// A Chebyshev net of N rows on both halves of its box across the rows. `m` belongs to the upper
-/// half; that of the lower one has the signs of a chessboard.
-template <int N>
-HWY_INLINE void halve_rows(const double* m, const Row* c, Row* lower, Row* upper) {
-  for (int p = 0; p < kParts; ++p) {
-#pragma GCC unroll 8
-    for (int k = 0; k < N; ++k) {
-      Vector even = hn::Mul(c[k].part[p], hn::Set(Lanes(), m[8 * k + k]));
-#pragma GCC unroll 8
-      for (int i = k + 2; i < N; i += 2)
-        even = hn::Add(even, hn::Mul(c[i].part[p], hn::Set(Lanes(), m[8 * i + k])));
-      if (k + 1 == N) {
-        lower[k].part[p] = upper[k].part[p] = even;
-        continue;
-      }
-      Vector odd = hn::Mul(c[k + 1].part[p], hn::Set(Lanes(), m[8 * (k + 1) + k]));
-#pragma GCC unroll 8
-      for (int i = k + 3; i < N; i += 2)
-        odd = hn::Add(odd, hn::Mul(c[i].part[p], hn::Set(Lanes(), m[8 * i + k])));
-      lower[k].part[p] = hn::Sub(even, odd);
-      upper[k].part[p] = hn::Add(even, odd);
-    }
-  }
-  for (int k = N; k < 8; ++k) lower[k] = upper[k] = Row::all(0);
-}
-
-/// Two Chebyshev nets on the quarters of their box, transposed, and their cubic parts as above. Bit
-/// 0 of a quarter's number belongs to the axis of the rows, bit 1 to the other one.
-template <int N>
-void quarter_nets_of(const double* const* from, const double* m, const QuarterNets* to,
-                     PairedExtremes* extremes, NetSums* sums) {
-  for (int net = 0; net < 2; ++net) {
-    Row rows[8], halves[2][8], quarters[2][8];
-    for (int i = 0; i < 8; ++i) rows[i] = Row::load(from[net] + 8 * i);
-    halve_rows<N>(m, rows, halves[0], halves[1]);
-    for (int first = 0; first < 2; ++first) {
-      transpose(halves[first]);
-      halve_rows<N>(m, halves[first], quarters[0], quarters[1]);
-      for (int second = 0; second < 2; ++second)
-        for (int i = 0; i < 8; ++i)
-          quarters[second][i].store(to[first + 2 * second].source[net] + 8 * i);
-    }
-  }
-  for (int q = 0; q < 4; ++q)
-    cut_off_nets(to[q].source[0], to[q].source[1], to[q].cubic, &extremes[q], &sums[q]);
-}
-
-void quarter_nets(int count, const double* const* from, const double* m, const QuarterNets* to,
-                  PairedExtremes* extremes, NetSums* sums) {
-  const auto run = count <= 5   ? quarter_nets_of<5>
-                   : count == 6 ? quarter_nets_of<6>
-                   : count == 7 ? quarter_nets_of<7>
-                                : quarter_nets_of<8>;
-  run(from, m, to, extremes, sums);
-}
-
 }  // namespace encase::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -286,9 +103,6 @@ HWY_AFTER_NAMESPACE();
 namespace encase {
 namespace {
 
-HWY_EXPORT(cut_off_nets);
-HWY_EXPORT(restrict_nets);
-HWY_EXPORT(quarter_nets);
 HWY_EXPORT(expand_powers);
 
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
@@ -355,147 +169,11 @@ void expand(const Tile& tile, const Box<2>& box, CubicSource* source) {
   // All coefficients together are off by less than 110 u tile.sum.
   const double rounding = tile.sum * 0x1p-45 + kTiny;
   source->rows_axis = 1;
-  source->count = std::clamp(tile.degree + 1, 1, 8);
   source->size = sums.size * kUp;
   source->left_out = sums.left_out * kUp;
   source->radius = (source->left_out + tile.error + rounding) * kUp;
   source->slope_radius = {(sums.lane_squares + tile.slope_error * part[0] + 225 * rounding) * kUp,
                           (sums.row_squares + tile.slope_error * part[1] + 225 * rounding) * kUp};
-}
-
-bool CubicSource::has_sign() const {
-  const double mean = std::fabs(c[0][0]), rest = (size - mean) * kUp + 0x1p-50 * mean;
-  return mean - rest > radius;
-}
-
-namespace {
-
-void substitute(double origin, double half, Substitution* result) {
-  auto& m = result->m;
-  *result = {};
-  m[0][0] = 1;
-  m[1][0] = origin;
-  m[1][1] = half;
-  for (int i = 2; i < 8; ++i) {
-    // 2 s T_k = T_(k-1) + T_(k+1), but 2 s T_0 = 2 T_1.
-    const double* last = m[i - 1];
-    for (int k = 0; k <= i; ++k) {
-      const double below = k == 0 ? 0 : k == 1 ? 2 * last[0] : last[k - 1];
-      const double above = k < 7 ? last[k + 1] : 0;
-      m[i][k] = (2 * origin * last[k] + half * (below + above)) - m[i - 2][k];
-    }
-  }
-}
-
-/// That of a part below kUsualParts.
-const Substitution& usual_substitution(int number) {
-  static const auto usual = [] {
-    std::vector<Substitution> table(kUsualParts);
-    for (int count = 1; count < kUsualParts; count *= 2)
-      for (int index = 0; index < count; ++index)
-        substitute((2.0 * index + 1) / count - 1, 1.0 / count,
-                   &table[static_cast<std::size_t>(count + index)]);
-    return table;
-  }();
-  return usual[static_cast<std::size_t>(number)];
-}
-
-const Substitution& substitution(double origin, double half, Substitution* scratch) {
-  if (const int number = number_of_part(origin, half)) return usual_substitution(number);
-  substitute(origin, half, scratch);
-  return *scratch;
-}
-
-/// What is said of cubic nets that are cut off from sources.
-void describe(const CubicSource* sources, const PairedExtremes& extremes, const NetSums& sums,
-              CubicSystem* system) {
-  system->rows_axis = 1 - sources[0].rows_axis;
-  system->lo = extremes.lo;
-  system->hi = extremes.hi;
-  for (int k = 0; k < 2; ++k) {
-    const CubicSource& source = sources[k];
-    const double* sum = sums.of[k];
-    const double rounding = sum[0] * 0x1p-44 + kTiny;
-    system->radius[k] = (source.radius + sum[1] + rounding) * kUp;
-    // The system's rows run along the source's lanes.
-    system->slope_radius[k] = {
-        (source.slope_radius[system->rows_axis] + sum[3] + 3 * rounding) * kUp,
-        (source.slope_radius[1 - system->rows_axis] + sum[2] + 3 * rounding) * kUp};
-  }
-}
-
-}  // namespace
-
-void cut_off(const std::array<CubicSource, 2>& sources, CubicSystem* system) {
-  PairedExtremes extremes;
-  NetSums sums;
-  HWY_DYNAMIC_DISPATCH(cut_off_nets)
-  (sources[0].c[0].data(), sources[1].c[0].data(), system->b[0].data(), &extremes, &sums);
-  describe(sources.data(), extremes, sums, system);
-}
-
-namespace {
-
-/// What is said of sources on a part of their box, transposed, and of the cubic nets there.
-void describe_part(const std::array<CubicSource, 2>& from, const Point<2>& half,
-                   const PairedExtremes& extremes, const NetSums& sums, CubicSource* to,
-                   CubicSystem* system) {
-  for (int k = 0; k < 2; ++k) {
-    CubicSource& source = to[k];
-    const double rounding = from[k].size * 0x1p-41 + kTiny;
-    source.rows_axis = 1 - from[k].rows_axis;
-    source.count = from[k].count;
-    source.size = sums.of[k][0] * kUp;
-    source.left_out = from[k].left_out;
-    source.radius = (from[k].radius + rounding) * kUp;
-    for (int i = 0; i < 2; ++i)
-      source.slope_radius[i] = (from[k].slope_radius[i] * half[i] + 49 * rounding) * kUp;
-  }
-  describe(to, extremes, sums, system);
-}
-
-/// The sources on a part, given by the matrices along x and y; none where it is as wide as the box.
-void restrict_to(const std::array<CubicSource, 2>& from, const std::array<const double*, 2>& matrix,
-                 const Point<2>& half, std::array<CubicSource, 2>* to, CubicSystem* system) {
-  const int rows = from[0].rows_axis, lanes = 1 - rows;
-  PairedExtremes extremes;
-  NetSums sums;
-  CubicSource *f = &(*to)[0], *g = &(*to)[1];
-  HWY_DYNAMIC_DISPATCH(restrict_nets)
-  (std::max(from[0].count, from[1].count), from[0].c[0].data(), from[1].c[0].data(), matrix[rows],
-   matrix[lanes], f->c[0].data(), g->c[0].data(), system->b[0].data(), &extremes, &sums);
-  describe_part(from, half, extremes, sums, to->data(), system);
-}
-
-}  // namespace
-
-void restrict_to(const std::array<CubicSource, 2>& from, const Part& part,
-                 std::array<CubicSource, 2>* to, CubicSystem* system) {
-  Substitution scratch[2];
-  std::array<const double*, 2> matrix;
-  for (int i = 0; i < 2; ++i)
-    matrix[i] = part.half[i] == 1 && part.origin[i] == 0
-                    ? nullptr
-                    : substitution(part.origin[i], part.half[i], &scratch[i]).m[0];
-  restrict_to(from, matrix, part.half, to, system);
-}
-
-void quarter(const std::array<CubicSource, 2>& from, SystemPatch* quarters) {
-  const int rows = from[0].rows_axis;
-  const double* const nets[2] = {from[0].c[0].data(), from[1].c[0].data()};
-  SystemPatch* ordered[4];
-  QuarterNets to[4];
-  for (int q = 0; q < 4; ++q) {
-    SystemPatch& patch = *(ordered[q] = quarters + ((q % 2 << rows) | (q / 2 << (1 - rows))));
-    to[q] = {{patch.source[0].c[0].data(), patch.source[1].c[0].data()}, patch.net.b[0].data()};
-  }
-  constexpr int kUpperHalf = 3;
-  PairedExtremes extremes[4];
-  NetSums sums[4];
-  HWY_DYNAMIC_DISPATCH(quarter_nets)
-  (std::max(from[0].count, from[1].count), nets, usual_substitution(kUpperHalf).m[0], to, extremes,
-   sums);
-  for (int q = 0; q < 4; ++q) describe_part(from, {0.5, 0.5}, extremes[q], sums[q], ordered[q]->source.data(), &ordered[q]->net);
 }
 
 }  // namespace encase

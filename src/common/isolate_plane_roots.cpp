@@ -250,7 +250,7 @@ std::optional<Contraction<2>> PlaneRoots::contraction_around(const Box<2>& aroun
     }
   }
   SystemNet net;
-  int count = 3;for(int i=0;i<2;++i)count=std::max(count,patch_count((*tiles)[i]->degree));
+  const int count = std::max(patch_count((*tiles)[0]->degree), patch_count((*tiles)[1]->degree));
   for (int i = 0; i < 2; ++i) expand(*(*tiles)[i], around, count, &net.of[i]);
   SystemVerdict verdict;
   test_system(net, kQuality, &verdict);

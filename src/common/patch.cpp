@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "common/cubic_source.hpp"
@@ -350,34 +349,6 @@ std::vector<Rational> product(const std::vector<Rational>& p, const Rational& mi
   return result;
 }
 
-/// The coefficients on [-1,1] of the polynomials that are 1 at one node and 0 at the others:
-/// products of linear factors, exactly, then rounded. (The nodes are symmetric.)
-Interpolation make_cubic_interpolation() {
-  constexpr int n = 3;
-  Interpolation table;
-  for (int k = 0; k <= n; ++k)
-    table.node[k] = k < 2 ? -std::cos(std::numbers::pi * (2 * k + 1) / 8) : -table.node[n - k];
-  std::array<Rational, n + 1> norms;
-  for (int k = 0; k <= n; ++k) {
-    std::vector<Rational> of_node{Rational(1)};
-    for (int m = 0; m <= n; ++m) {
-      if (m == k) continue;
-      const Rational step = Rational(table.node[k]) - Rational(table.node[m]);
-      of_node = product(of_node, (-1 - Rational(table.node[m])) / step,
-                        (1 - Rational(table.node[m])) / step);
-    }
-    Integer choose = 1;
-    for (int j = 0; j <= n; ++j) {
-      const Rational entry = of_node[j] / Rational(choose);
-      table.matrix[j][k] = nearest_double(entry);
-      norms[j] += abs(entry);
-      choose = choose * (n - j) / (j + 1);
-    }
-  }
-  for (const Rational& norm : norms) table.norm = std::max(table.norm, norm.get_d() * kUp);
-  return table;
-}
-
 /// By T_(k+1) = 2 s T_k - T_(k-1), in rational arithmetic.
 ChebyshevTable make_chebyshev_table(int count) {
   ChebyshevTable table;
@@ -439,11 +410,6 @@ const ChebyshevTable& chebyshev_table(int count) {
 }
 
 }  // namespace
-
-const Interpolation& cubic_interpolation() {
-  static const Interpolation table = make_cubic_interpolation();
-  return table;
-}
 
 int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
 

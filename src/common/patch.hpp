@@ -37,15 +37,6 @@ struct Patch {
   double magnitude() const { return hi > -lo ? hi : -lo; }
 };
 
-/// Interpolation at four nodes of Chebyshev, and from there to Bernstein coefficients: constants.
-struct Interpolation {
-  std::array<double, 4> node{};
-  /// coefficient j = sum over k of matrix[j][k] value(node[k])
-  std::array<std::array<double, 8>, 4> matrix{};
-  double norm = 0;  ///< at least the sums of absolute values of the exact matrix' rows
-};
-const Interpolation& cubic_interpolation();
-
 /// The number of coefficients in either variable that patches of polynomials up to a degree have.
 int patch_count(int degree);
 

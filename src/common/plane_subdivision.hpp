@@ -56,7 +56,7 @@ inline std::optional<bool> lies_inside(const Box<2>& box, const std::vector<Line
 }
 
 /// The subdivision of a box of the plane, with a patch of one polynomial on the boxes, or with
-/// cubic nets of two: then their common zeros are sought, and a box on which one keeps a sign is
+/// nets of two: then their common zeros are sought, and a box on which one keeps a sign is
 /// excluded.
 ///
 /// Depth first, so that what is at hand stays in the cache, but in bands: what is not settled at
@@ -65,25 +65,25 @@ inline std::optional<bool> lies_inside(const Box<2>& box, const std::vector<Line
 template <int N>
 class PlaneSubdivision {
  public:
-  /// Where a node is, and what is known there but for the nets.
+  /// A node but for its nets.
   struct Place {
     Box<2> box;
-    /// The tiles that the net comes from. Their rectangles contain the box.
+    /// The tiles that the nets come from. Their rectangles contain the box.
     std::array<const Tile*, N> tile{};
-    int expanded_at = 0;  ///< the level of the box that the tiles were expanded for
+    int expanded_at = 0;  ///< the level of the box that they were made on
     /// The part, in the box's coordinates, outside of which nothing that is sought lies. A visitor
     /// may set it; halves that do not meet it are settled as excluded.
     Box<2> part;
-    int level = 0;   ///< number of halvings
-    int splits = 0;  ///< that led here from the first box of the band
-    int opens = 0;   ///< the token of a half of which this is the first quarter, or kNone
+    int level = 0;        ///< number of halvings
+    int splits = 0;       ///< that led here from the first box of the band
+    int opens = 0;        ///< the token of a half of which this is the first quarter, or kNone
     bool inside = false;  ///< known to lie in all half planes
     bool has_net = false;
     bool excluded = false;
   };
   /// What `visit` is given.
   struct Node : Place {
-    /// The patch; or where the cubic nets and their sources are, once `has_net` is set.
+    /// The patch; or where the nets are. Valid if `has_net` is set.
     std::conditional_t<N == 1, Patch, SystemNet*> net;
   };
   /// The token with which a visitor splits a box across both axes.
@@ -98,13 +98,13 @@ class PlaneSubdivision {
         stack_(taken_over(&spare_stack(), 3 * kLevelsPerBand + 2)) {
     for (const auto& leaf : sought_.leaves)
       for (const TiledFunction* f : leaf.polynomials) has_gaps_ = has_gaps_ || !f->gaps().empty();
-    if (N == 2) patches_ = taken_over(&spare_patches(), 4 * (kLevelsPerBand + 1));
+    if (N == 2) nets_ = taken_over(&spare_nets(), 4 * (kLevelsPerBand + 1));
   }
   PlaneSubdivision(const PlaneSubdivision&) = delete;
   PlaneSubdivision& operator=(const PlaneSubdivision&) = delete;
   ~PlaneSubdivision() {
     spare_stack() = std::move(stack_);
-    spare_patches() = std::move(patches_);
+    spare_nets() = std::move(nets_);
   }
   /// Of a whole box.
   PlaneSubdivision(const std::array<TiledFunction*, N>& polynomials, const Box<2>& root,
@@ -142,7 +142,7 @@ class PlaneSubdivision {
     static thread_local std::unique_ptr<Node[]> spare;
     return spare;
   }
-  static std::unique_ptr<SystemNet[]>& spare_patches() {
+  static std::unique_ptr<SystemNet[]>& spare_nets() {
     static thread_local std::unique_ptr<SystemNet[]> spare;
     return spare;
   }
@@ -162,9 +162,9 @@ class PlaneSubdivision {
   void split_into_halves(int axis, const Box<2>* halves);
   void restrict_net(const SystemNet& from, const Box<2>& box, Node* node);
   bool split_into_quarters(int axis, const Box<2>* halves);
+  static int first_axis(const Node& node);
   int try_smaller(const Box<2>& box) const { return N == 1 ? wider_axis(box) : kQuarter; }
-  template <class Net>
-  bool make_net(const Node& node, int i, Net* net, const Tile** tile);
+  bool make_patch(const Node& node, int i, Patch* patch, const Tile** tile);
   bool outside(Node& node) const;
   const Tile* local_tile(const Node& node, int i, int bits);
   void settle(int token, const Node& node);
@@ -184,13 +184,13 @@ class PlaneSubdivision {
   std::unique_ptr<Node[]> stack_;
   int top_ = 0;  ///< of the stack
   std::array<std::vector<Local>, N> local_;
-  /// Four for the children of each of a node's ancestors, by their number of splits.
-  std::unique_ptr<SystemNet[]> patches_;
-  SystemNet spare_net_;
-  int count_ = Patch::kMaxCount;        ///< of the patches' coefficients in either variable
-  int boxes_ = 0;                       ///< visited; those that had to wait twice
-  int deepest_ = 0;                     ///< the level beyond which nothing is halved
-  bool has_gaps_ = false;               ///< some function is not analytic everywhere
+  /// Those of the first box, then up to four for the children of each of a node's ancestors.
+  std::unique_ptr<SystemNet[]> nets_;
+  SystemNet fresh_net_;
+  int count_ = Patch::kMaxCount;  ///< of the patches' coefficients in either variable
+  int boxes_ = 0;                 ///< visited; those that had to wait twice
+  int deepest_ = 0;               ///< the level beyond which nothing is halved
+  bool has_gaps_ = false;         ///< some function is not analytic everywhere
   bool stopped_ = false;
   bool unresolved_ = false;
 };
@@ -233,7 +233,9 @@ template <int N>
 template <class Visit>
 void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int budget, Visit visit) {
   polynomials_ = sought_.leaves[static_cast<std::size_t>(leaf)].polynomials;
-  count_ = 3;for(int i=0;i<N;++i)count_=std::max(count_,patch_count(polynomials_[i]->polynomial().degree()));
+  count_ = 0;
+  for (const TiledFunction* f : polynomials_)
+    count_ = std::max(count_, patch_count(f->polynomial().degree()));
   for (auto& list : local_) list.clear();
   const int last_level = std::min(level + kLevelsPerBand, deepest_);
   Node& first = stack_[0];
@@ -244,7 +246,7 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int bu
   first.inside = first.has_net = first.excluded = false;
   first.part = kWhole;
   first.tile = {};
-  if constexpr (N == 2) first.net = &patches_[0];
+  if constexpr (N == 2) first.net = &nets_[0];
   top_ = 0;
   int here = 0;
   while (top_ >= 0) {
@@ -262,11 +264,7 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int bu
       --top_;
       continue;
     }
-    int axis = cover::kSplitX - (token == kQuarter ? wider_axis(node.box) : token);
-    if constexpr (N == 2)
-      if (token == kQuarter && node.has_net && node.box.width(0) < 1.9 * node.box.width(1) &&
-          node.box.width(1) < 1.9 * node.box.width(0))
-        axis = node.net->of[0].rows_axis;
+    const int axis = token == kQuarter ? first_axis(node) : cover::kSplitX - token;
     Box<2> halves[2];
     const bool divisible = halve_box(node.box, axis, &halves[0], &halves[1]) &&
                            node.box.width(axis) > limits_.smallest * sought_.root.width(axis);
@@ -312,7 +310,7 @@ void PlaneSubdivision<N>::split_into_halves(int axis, const Box<2>* halves) {
   } else {
     const SystemNet* from = child[1]->net;
     for (int k = 0; k < 2; ++k) {
-      child[k]->net = &patches_[4 * child[k]->splits + k];
+      child[k]->net = &nets_[4 * child[k]->splits + k];
       if (place.has_net && !child[k]->excluded) restrict_net(*from, place.box, child[k]);
     }
   }
@@ -326,33 +324,39 @@ inline void PlaneSubdivision<2>::restrict_net(const SystemNet& from, const Box<2
   node->excluded = node->net->excluded();
 }
 
+/// Across which axis a box is halved first, of two.
+template <>
+inline int PlaneSubdivision<1>::first_axis(const Node& node) {
+  return cover::kSplitX - wider_axis(node.box);
+}
+template <>
+inline int PlaneSubdivision<2>::first_axis(const Node& node) {
+  const double x = node.box.width(0), y = node.box.width(1);
+  const bool either = x < 1.9 * y && y < 1.9 * x;
+  return either && node.has_net ? node.net->of[0].rows_axis : cover::kSplitX - wider_axis(node.box);
+}
+
 /// The node becomes its quarters, in the order of their tokens; but a half that is excluded stays
-/// whole. False if they would be too thin or the box has no double in its middle.
+/// whole. False if they would be thin or are not divisible.
 template <>
 inline bool PlaneSubdivision<2>::split_into_quarters(int axis, const Box<2>* halves) {
   const int other = 1 - axis;
   const Place place = stack_[top_];
-  if (wider_axis(halves[0]) != cover::kSplitX - other || !halves_exactly(place.box) ||
-      (place.has_net && stack_[top_].net->of[0].rows_axis != axis))
+  const SystemNet* from = place.has_net ? stack_[top_].net : nullptr;
+  if (wider_axis(halves[0]) != cover::kSplitX - other || (from && from->of[0].rows_axis != axis))
     return false;
   Box<2> boxes[2][2];
   for (int k = 0; k < 2; ++k)
     if (!halve_box(halves[k], other, &boxes[k][0], &boxes[k][1])) return false;
-  const SystemNet* from = stack_[top_].net;
-  const auto misses = [&](int a, int upper) {
-    return upper == 0 ? place.part.lo[a] > 0 : place.part.hi[a] < 0;
+  const auto misses = [&](int a) {
+    return std::array<bool, 2>{place.part.lo[a] > 0, place.part.hi[a] < 0};
   };
-  int wanted = 0;
-  for (int k = 0; k < 4; ++k) wanted += !misses(axis, k / 2) && !misses(other, k % 2);
-  SystemNet* const patches = &patches_[4 * (place.splits + 1)];
-  std::array<bool, 2> empty{misses(axis, 0), misses(axis, 1)};
-  std::array<std::array<bool, 2>, 2> none{};
-  if (place.has_net && wanted > 1) {
-    SystemNet* quarters[4];bool ex[4];
-    for (int q = 0; q < 4; ++q) quarters[q] = &patches[(q % 2 << axis) | (q / 2 << other)];
-    quarter(*from, &empty, quarters, ex);
-    for (int q = 0; q < 4; ++q) none[q % 2][q / 2] = ex[q];
-  }
+  std::array<bool, 2> empty = misses(axis);
+  const std::array<bool, 2> missed = misses(other);
+  SystemNet* const nets = &nets_[4 * (place.splits + 1)];
+  const bool several = empty[0] == empty[1] || missed[0] == missed[1];
+  std::array<bool, 4> excluded{};
+  if (from && several) excluded = quarter(*from, &empty, nets);
   // The last one comes lowest on the stack.
   for (int k = 1; k >= 0; --k) {
     if (empty[k]) {
@@ -368,13 +372,9 @@ inline bool PlaneSubdivision<2>::split_into_quarters(int axis, const Box<2>* hal
       go_down(&node, boxes[k][m], 2);
       if (m == 0) node.opens = cover::kSplitX - other;
       node.part = kWhole;
-      node.excluded = misses(other, m);
-      node.net = patches + ((k << axis) | (m << other));
-      if (!place.has_net || node.excluded) continue;
-      if (wanted > 1)
-        node.excluded = none[k][m];
-      else
-        restrict_net(*from, place.box, &node);
+      node.net = nets + k + 2 * m;
+      node.excluded = missed[m] || excluded[k + 2 * m];
+      if (from && !several && !node.excluded) restrict_net(*from, place.box, &node);
     }
   }
   --top_;
@@ -400,7 +400,7 @@ template <class Visit>
 int PlaneSubdivision<N>::token_of(Node& node, Visit visit) {
   if (node.excluded) return cover::kExcluded;
   // A half that is free need not be asked about.
-  if (N == 2 && node.has_net)
+  if (node.has_net)
     for (int axis = 0; axis < 2; ++axis)
       if ((node.part.hi[axis] < 0 || node.part.lo[axis] > 0) &&
           node.box.width(axis) > 0.3 * node.box.width(1 - axis))
@@ -488,6 +488,8 @@ inline bool is_settled(const TiledFunction& f, const Patch& patch) {
 inline bool hopeless(const Tile& tile, int level) { return tile.degree > 7 && level % 2 == 1; }
 
 /// Whether a smaller box should have the first net.
+/// (What nets of two lack must not matter on parts of the box, the more of which there are the
+/// larger it is.)
 template <int N>
 bool too_large(const Patch& patch, int level) {
   if (!(patch.left_out > 0.5 * patch.radius)) return false;
@@ -496,8 +498,8 @@ bool too_large(const Patch& patch, int level) {
 }
 
 /// Whether a net says anything of a function.
-inline bool tells(const Patch& patch, int) { return patch.radius < 0.25 * patch.magnitude(); }
-inline bool tells(const SystemNet* net, int i) { return tells(net->of[i], 0); }
+inline bool tells(const Patch& patch, int = 0) { return patch.radius < 0.25 * patch.magnitude(); }
+inline bool tells(const SystemNet* net, int i) { return tells(net->of[i]); }
 
 /// Makes the node's net where it is missing or too coarse; false if there is none, because the box
 /// is too large or excluded at once.
@@ -505,7 +507,7 @@ template <>
 inline bool PlaneSubdivision<1>::provide_net(Node& node) {
   if (node.has_net && (node.expanded_at + 2 > node.level || !coarse(node.net, node.level)))
     return true;
-  if (!make_net(node, 0, &node.net, &node.tile[0])) return false;
+  if (!make_patch(node, 0, &node.net, &node.tile[0])) return false;
   node.expanded_at = node.level;
   node.has_net = true;
   return true;
@@ -517,11 +519,11 @@ inline bool PlaneSubdivision<2>::provide_net(Node& node) {
   // From the tiles, unless that was done on a box that is hardly larger.
   const int between = node.level <= kUsualLevels ? 2 : 1;
   if (node.has_net && node.expanded_at + between > node.level) return true;
-  SystemNet& net = spare_net_;
+  SystemNet& net = fresh_net_;
   std::array<const Tile*, 2> tiles = node.tile;
   for (int i = 0; i < 2; ++i) {
     net.of[i].radius = node.has_net ? node.net->of[i].radius : HUGE_VAL;
-    if (!make_net(node, i, &net.of[i], &tiles[i])) return false;
+    if (!make_patch(node, i, &net.of[i], &tiles[i])) return false;
     node.excluded = net.of[i].sign().has_value();
     if (node.excluded) return false;
   }
@@ -532,14 +534,11 @@ inline bool PlaneSubdivision<2>::provide_net(Node& node) {
   return true;
 }
 
-/// A net on the node's box from a tile, which replaces the one that was used last; `net->radius` is
-/// what was known with that.
+/// A patch on the node's box from a tile, which replaces the one that was used last;
+/// `patch->radius` is what was known with that.
 template <int N>
-template <class Net>
-bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile** used) {
-  const auto make = [&](const Tile& tile) {
-    expand(tile, node.box, count_, net);
-  };
+bool PlaneSubdivision<N>::make_patch(const Node& node, int i, Patch* patch, const Tile** used) {
+  const auto make = [&](const Tile& tile) { expand(tile, node.box, count_, patch); };
   const bool has_local = !local_[i].empty();  // of an ancestor
   if (node.level < 2 * kLevelsPerBand || has_local) {
     const Tile* tile =
@@ -553,21 +552,21 @@ bool PlaneSubdivision<N>::make_net(const Node& node, int i, Net* net, const Tile
     if (!*used && hopeless(*tile, node.level)) return false;
     if (within) {
       make(*tile);
-      if (!*used && too_large<N>(*net, node.level)) return false;
+      if (!*used && too_large<N>(*patch, node.level)) return false;
       *used = tile;
       // What is lost by the low degree shrinks with the box.
-      if (!coarse(*net, node.level) || net->left_out > 0.5 * net->radius) return true;
+      if (!coarse(*patch, node.level) || patch->left_out > 0.5 * patch->radius) return true;
     }
   }
   // A tile of the box's own, in double-doubles, then in MPFR.
   for (int bits = kernel_.start_bits; bits > 0; bits = kernel_.next(bits)) {
     if (bits == Kernel::kExtendedBits) continue;
-    const double before = *used ? net->radius : HUGE_VAL;
+    const double before = *used ? patch->radius : HUGE_VAL;
     *used = local_tile(node, i, bits);
     make(**used);
-    if (!coarse(*net, node.level) || polynomials_[i]->wants_smaller(**used) ||
-        is_settled(*polynomials_[i], *net) ||
-        (bits > Kernel::kDoubleBits && !(net->radius < 0.5 * before)))
+    if (!coarse(*patch, node.level) || polynomials_[i]->wants_smaller(**used) ||
+        is_settled(*polynomials_[i], *patch) ||
+        (bits > Kernel::kDoubleBits && !(patch->radius < 0.5 * before)))
       break;
   }
   return true;

@@ -8,12 +8,12 @@
 #include "common/patch.hpp"
 #include "encase/geometry.hpp"
 
-/// Patches of two polynomials: what the search for their common zeros works with.
-/// docs/error-bounds.md derives their radii.
+/// Nets of two polynomials: what the search for their common zeros works with.
+/// docs/error-bounds.md, section 11, derives their radii.
 namespace encase {
 
-/// Two polynomials on one box, in the box's coordinates [-1,1]^2. The patches have as many
-/// coefficients, and rows along the same axis.
+/// Two polynomials on one box: patches of one size, their rows along one axis. (Nothing is said of
+/// second derivatives.)
 struct SystemNet {
   std::array<Patch, 2> of;
 
@@ -31,14 +31,15 @@ inline Chart chart_of(const Box<2>& box) {
 }
 Part part_of(const Chart& chart, const Box<2>& box);
 
-/// The nets on a part of their box. `to` may not be `from`.
+/// The nets on a part of their box, transposed. `to` may not be `from`.
 void restrict_to(const SystemNet& from, const Part& part, SystemNet* to);
 
-/// The nets on the four quarters of their box. Of those in a half across the rows that is `empty`
-/// nothing is said, and it is set where a half is excluded; `excluded`: quarters. Quarter k + 2 m:
-/// half k across the rows, half m across the lanes.
-void quarter(const SystemNet& from, std::array<bool, 2>* empty, SystemNet* const* quarters,
-             bool* excluded);
+/// The nets on the quarters of their box, transposed: number k + 2 m lies in half k across the rows
+/// and in half m across the lanes. Of those in a half across the rows that is `empty` nothing is
+/// said; it is set for a half on which one polynomial is proved to have a sign. Returns for every
+/// other quarter whether that is so; only of the others are there nets. `from` may not be among
+/// them.
+std::array<bool, 4> quarter(const SystemNet& from, std::array<bool, 2>* empty, SystemNet* quarters);
 
 /// What the nets prove about the common zeros.
 struct SystemVerdict {

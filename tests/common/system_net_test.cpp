@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+//
+// Nets of two polynomials against rational arithmetic.
+#include "common/system_net.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "common/subdivision.hpp"
+#include "exact_patches.hpp"
+#include "written.hpp"
+
+namespace encase {
+namespace {
+
+SystemNet on_box(const Tile& f, const Tile& g, const Box<2>& box) {
+  SystemNet net;
+  const int count = std::max(patch_count(f.degree), patch_count(g.degree));
+  expand(f, box, count, &net.of[0]);
+  expand(g, box, count, &net.of[1]);
+  return net;
+}
+
+/// Quarter k + 2 m of a box, as `quarter` numbers them.
+Box<2> quarter_of(const Box<2>& box, int rows_axis, int number) {
+  Box<2> part = box;
+  for (int i = 0; i < 2; ++i) {
+    const int axis = i == 0 ? rows_axis : 1 - rows_axis;
+    ((number >> i) % 2 == 0 ? part.hi : part.lo)[axis] = box.center()[axis];
+  }
+  return part;
+}
+
+class NetsOfDegree : public testing::TestWithParam<int> {};
+
+TEST_P(NetsOfDegree, AreAsCloseAsTheySay) {
+  const int degree = GetParam();
+  Random random(static_cast<std::uint64_t>(degree) + 90);
+  const FilteredFunction<2> f(random_polynomial(degree, random)),
+      g(random_polynomial(degree / 2, random));
+  const Exact exact[2] = {Exact(f), Exact(g)};
+  Kernel kernel;
+  const Box<2> root{{-1, -1}, {1, 1}};
+  TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
+  double needed = 0;
+  int quarters_seen = 0;
+  for (int round = 0; round < 6; ++round) {
+    Box<2> box = random_box(round / 2, random);
+    Tile tile_f, tile_g;
+    of_f.expand(box, 53, &tile_f);
+    of_g.expand(box, 53, &tile_g);
+    SystemNet net = on_box(tile_f, tile_g, box);
+    // Quarters of it, and parts.
+    for (int step = 0; step < 6; ++step) {
+      Box<2> inner = box;
+      SystemNet next;
+      const int rows_axis = net.of[0].rows_axis;
+      std::array<bool, 2> empty{false, false};
+      SystemNet quarters[4];
+      const auto excluded = quarter(net, &empty, quarters);
+      std::vector<int> kept;
+      for (int q = 0; q < 4; ++q)
+        if (!empty[q % 2] && !excluded[q]) kept.push_back(q);
+      if (step % 3 == 2 || kept.empty()) {
+        for (int i = 0; i < 2; ++i) {
+          inner.lo[i] += box.width(i) * static_cast<double>(random() % 5) / 8;
+          inner.hi[i] -= box.width(i) * static_cast<double>(random() % 3) / 8;
+        }
+        restrict_to(net, part_of(chart_of(box), inner), &next);
+      } else {
+        const int q = kept[random() % kept.size()];
+        inner = quarter_of(box, rows_axis, q);
+        next = quarters[q];
+        ++quarters_seen;
+      }
+      box = inner;
+      net = next;
+      for (int k = 0; k < 2; ++k) {
+        EXPECT_EQ(net.of[k].rows_axis, 1 - rows_axis);
+        const double share = expect_true(net.of[k], exact[k], box, random, false);
+        if (k == 0) needed = std::max(needed, share);
+      }
+    }
+  }
+  EXPECT_GT(quarters_seen, 5);
+  // The bounds are not idle.
+  if (degree >= 8) {
+    EXPECT_GT(needed, 0.1);
+  }
+}
+
+TEST_P(NetsOfDegree, ExcludeWhatTheyMay) {
+  const int degree = GetParam();
+  Random random(static_cast<std::uint64_t>(degree) + 30);
+  int empty_halves = 0, excluded_quarters = 0;
+  for (int round = 0; round < 12; ++round) {
+    const FilteredFunction<2> f(random_polynomial(degree, random)),
+        g(random_polynomial(degree, random));
+    const Exact exact[2] = {Exact(f), Exact(g)};
+    Kernel kernel;
+    const Box<2> root{{-1, -1}, {1, 1}};
+    TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
+    const Box<2> box = random_box(round % 3, random);
+    Tile tile_f, tile_g;
+    of_f.expand(box, 53, &tile_f);
+    of_g.expand(box, 53, &tile_g);
+    const auto one_keeps_a_sign = [&](const Box<2>& part) {
+      bool keeps[2];
+      for (int k = 0; k < 2; ++k) {
+        int seen = 0;  // bit 0: positive, bit 1: negative
+        for (int i = -3; i <= 3; ++i)
+          for (int j = -3; j <= 3; ++j) {
+            const Rational value = exact[k].at(part, {Rational(i, 3), Rational(j, 3)}).value;
+            seen |= value > 0 ? 1 : value < 0 ? 2 : 3;
+          }
+        keeps[k] = seen != 3;
+      }
+      return keeps[0] || keeps[1];
+    };
+    const SystemNet net = on_box(tile_f, tile_g, box);
+    if (net.excluded()) {
+      EXPECT_TRUE(one_keeps_a_sign(box));
+    }
+    const bool given = round % 4 == 3;
+    std::array<bool, 2> empty{given, false};
+    SystemNet quarters[4];
+    const auto excluded = quarter(net, &empty, quarters);
+    EXPECT_TRUE(empty[0] || !given);
+    for (int k = 0; k < 2; ++k) {
+      if (empty[k] && !(k == 0 && given)) {
+        ++empty_halves;
+        Box<2> half = box;
+        (k == 0 ? half.hi : half.lo)[net.of[0].rows_axis] = box.center()[net.of[0].rows_axis];
+        EXPECT_TRUE(one_keeps_a_sign(half));
+      }
+      for (int q = k; q < 4 && !empty[k]; q += 2) {
+        if (!excluded[q]) continue;
+        ++excluded_quarters;
+        EXPECT_TRUE(one_keeps_a_sign(quarter_of(box, net.of[0].rows_axis, q)));
+      }
+    }
+  }
+  EXPECT_GT(empty_halves, 2);
+  if (degree >= 1) {
+    EXPECT_GT(excluded_quarters, 2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, NetsOfDegree,
+                         testing::Values(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 13, 15, 18, 25),
+                         [](const auto& test) { return std::to_string(test.param); });
+
+TEST(SystemNet, OfTilesThatClaimNothingProvesNothing) {
+  const FilteredFunction<2> f(written::polynomial<2>("x^3 + y^3 + 1")),
+      g(written::polynomial<2>("x^3 - y^2 + 2"));
+  Kernel kernel;
+  const Box<2> box{{-1e300, -1e300}, {1e300, 1e300}};
+  TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
+  Tile tile_f, tile_g;
+  of_f.expand(box, 53, &tile_f);
+  of_g.expand(box, 53, &tile_g);
+  const SystemNet net = on_box(tile_f, tile_g, box);
+  EXPECT_FALSE(net.excluded());
+  std::array<bool, 2> empty{false, false};
+  SystemNet quarters[4], part;
+  EXPECT_EQ(quarter(net, &empty, quarters), (std::array<bool, 4>{}));
+  EXPECT_EQ(empty, (std::array<bool, 2>{}));
+  restrict_to(net, {{0.25, 0}, {0.5, 1}}, &part);
+  EXPECT_FALSE(part.excluded());
+  SystemVerdict verdict;
+  test_system(net, 0.8, &verdict);
+  EXPECT_FALSE(verdict.excluded);
+  EXPECT_FALSE(verdict.contracts);
+}
+
+TEST(SystemNet, VariationIsAlongTheAxes) {
+  const FilteredFunction<2> f(written::polynomial<2>("x + 3 y")),
+      g(written::polynomial<2>("x/2 + y"));
+  Kernel kernel;
+  const Box<2> box{{-1, -1}, {1, 1}};
+  TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
+  SystemNet net = on_box(of_f.at({0, 0}), of_g.at({0, 0}), box), half;
+  // The nets of lines have three coefficients in either direction.
+  for (const double part : {1.0, 0.5}) {
+    const auto v = relative_variation(net);
+    const double of_f_size = net.of[0].magnitude() * f.scale(),
+                 of_g_size = net.of[1].magnitude() * g.scale();
+    EXPECT_NEAR(v[0], part * (1 / of_f_size + 0.5 / of_g_size), 1e-12);
+    EXPECT_NEAR(v[1], 3 / of_f_size + 1 / of_g_size, 1e-12);
+    restrict_to(net, {{-0.5, 0}, {0.5, 1}}, &half);
+    net = half;
+  }
+}
+
+class SystemOfDegree : public testing::TestWithParam<int> {};
+
+TEST_P(SystemOfDegree, VerdictsDoNotContradictAKnownZero) {
+  const int degree = GetParam();
+  Random random(static_cast<std::uint64_t>(degree) + 7);
+  int contractions = 0, narrowed = 0;
+  for (int round = 0; round < 40; ++round) {
+    const RationalPoint<2> zero{Rational(symmetric_random(random)) / 3,
+                                Rational(symmetric_random(random)) / 3};
+    const FilteredFunction<2> f(through(zero, degree, random)), g(through(zero, degree, random));
+    Kernel kernel;
+    const Box<2> root{{-1, -1}, {1, 1}};
+    TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
+    // Boxes with the zero at a corner, on a side, or inside (the double next to it).
+    for (int level = 1; level < 40; level += 3) {
+      const double width = std::ldexp(1.0, -level);
+      Box<2> box;
+      for (int i = 0; i < 2; ++i) {
+        box.lo[i] = nearest_double(zero[i]) - width * (round % 3 == 0 ? 0.5 : (random() % 9) / 8.0);
+        box.hi[i] = box.lo[i] + width;
+      }
+      RationalPoint<2> s;
+      bool inside = true;
+      for (int i = 0; i < 2; ++i) {
+        const Rational lo(box.lo[i]), hi(box.hi[i]);
+        inside = inside && lo <= zero[i] && zero[i] <= hi;
+        s[i] = (zero[i] - (lo + hi) / 2) / ((hi - lo) / 2);
+      }
+      if (!inside) continue;
+      Tile tile_f, tile_g;
+      of_f.expand(box, 53, &tile_f);
+      of_g.expand(box, 53, &tile_g);
+      const SystemNet system = on_box(tile_f, tile_g, box);
+      EXPECT_FALSE(system.excluded());
+      SystemVerdict verdict;
+      test_system(system, 0.8, &verdict);
+      EXPECT_FALSE(verdict.excluded);
+      // Up to what the chart is larger than the box where its centre is no double.
+      const Rational slack = Rational(0x1p-49) + Rational(0x1p-52 / width);
+      for (int i = 0; i < 2; ++i) {
+        EXPECT_LE(Rational(verdict.zeros.lo[i]), s[i] + slack);
+        EXPECT_GE(Rational(verdict.zeros.hi[i]), s[i] - slack);
+        narrowed += verdict.zeros.hi[i] - verdict.zeros.lo[i] < 0.5;
+      }
+      contractions += verdict.contracts;
+    }
+  }
+  EXPECT_GT(contractions, 20);
+  EXPECT_GT(narrowed, 20);
+}
+
+TEST_P(SystemOfDegree, ContractionsBoundTheJacobian) {
+  const int degree = GetParam();
+  Random random(static_cast<std::uint64_t>(degree) + 70);
+  int contractions = 0;
+  for (int round = 0; round < 12; ++round) {
+    const RationalPoint<2> zero{Rational(1, 7), Rational(-1, 5)};
+    const FilteredFunction<2> f(through(zero, degree, random)), g(through(zero, degree, random));
+    const Exact exact_f(f), exact_g(g);
+    Kernel kernel;
+    const Box<2> root{{-1, -1}, {1, 1}};
+    TiledFunction of_f(f, root, kernel), of_g(g, root, kernel);
+    for (int level = 3; level < 12; level += 2) {
+      Box<2> box;
+      for (int i = 0; i < 2; ++i) {
+        const double width = std::ldexp(1.0, -level);
+        box.lo[i] = std::floor(zero[i].get_d() / width) * width;
+        box.hi[i] = box.lo[i] + width;
+      }
+      SystemNet system = on_box(of_f.at(box.center()), of_g.at(box.center()), box);
+      if (round % 2 == 1) {
+        // One of its quarters: the rows run along y.
+        std::array<bool, 2> empty{false, false};
+        SystemNet quarters[4];
+        const int q = round / 2 % 4;
+        if (quarter(system, &empty, quarters)[q] || empty[q % 2]) continue;
+        system = quarters[q];
+        box = quarter_of(box, 0, q);
+      }
+      SystemVerdict verdict;
+      test_system(system, 0.8, &verdict);
+      if (!verdict.contracts) continue;
+      ++contractions;
+      const Contraction<2>& c = verdict.contraction;
+      for (int k = 0; k < 4; ++k) {
+        const RationalPoint<2> s = random_point(random);
+        const Jet2 a = exact_f.at(box, s), b = exact_g.at(box, s);
+        const Rational jacobian[2][2] = {{a.x, a.y}, {b.x, b.y}};
+        for (int i = 0; i < 2; ++i)
+          for (int j = 0; j < 2; ++j) {
+            Rational entry = i == j ? -1 : 0;
+            for (int m = 0; m < 2; ++m) entry += Rational(c.preconditioner[i][m]) * jacobian[m][j];
+            EXPECT_LE(abs(entry), Rational(c.bound[i][j]));
+          }
+      }
+      for (int i = 0; i < 2; ++i) {
+        EXPECT_GT(c.weights[i], 0);
+        EXPECT_LT(Rational(c.bound[i][0]) * Rational(c.weights[0]) +
+                      Rational(c.bound[i][1]) * Rational(c.weights[1]),
+                  Rational(c.weights[i]));
+      }
+    }
+  }
+  EXPECT_GT(contractions, 8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, SystemOfDegree, testing::Values(1, 2, 3, 5, 7, 8, 11, 15, 18),
+                         [](const auto& test) { return std::to_string(test.param); });
+
+}  // namespace
+}  // namespace encase
