@@ -41,8 +41,12 @@ class NetsOfDegree : public testing::TestWithParam<int> {};
 TEST_P(NetsOfDegree, AreAsCloseAsTheySay) {
   const int degree = GetParam();
   Random random(static_cast<std::uint64_t>(degree) + 90);
-  const FilteredFunction<2> f(random_polynomial(degree, random)),
-      g(random_polynomial(degree / 2, random));
+  // (A common zero, around which nothing is excluded.)
+  const RationalPoint<2> zero{Rational(1, 7), Rational(-1, 5)};
+  const auto some = [&](int n) {
+    return n == 0 ? random_polynomial(n, random) : through(zero, n, random);
+  };
+  const FilteredFunction<2> f(some(degree)), g(some((degree + 1) / 2));
   const Exact exact[2] = {Exact(f), Exact(g)};
   Kernel kernel;
   const Box<2> root{{-1, -1}, {1, 1}};
@@ -50,7 +54,7 @@ TEST_P(NetsOfDegree, AreAsCloseAsTheySay) {
   double needed = 0;
   int quarters_seen = 0;
   for (int round = 0; round < 6; ++round) {
-    Box<2> box = random_box(round / 2, random);
+    Box<2> box = round % 2 == 0 ? root : random_box(round / 2, random);
     Tile tile_f, tile_g;
     of_f.expand(box, 53, &tile_f);
     of_g.expand(box, 53, &tile_g);
@@ -87,7 +91,9 @@ TEST_P(NetsOfDegree, AreAsCloseAsTheySay) {
       }
     }
   }
-  EXPECT_GT(quarters_seen, 5);
+  if (degree >= 1) {
+    EXPECT_GT(quarters_seen, 5);
+  }
   // The bounds are not idle.
   if (degree >= 8) {
     EXPECT_GT(needed, 0.1);
@@ -147,7 +153,7 @@ TEST_P(NetsOfDegree, ExcludeWhatTheyMay) {
   }
   EXPECT_GT(empty_halves, 2);
   if (degree >= 1) {
-    EXPECT_GT(excluded_quarters, 2);
+    EXPECT_GT(excluded_quarters, 0);
   }
 }
 
