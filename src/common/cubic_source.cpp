@@ -121,15 +121,20 @@ void cut_off_nets(const double* f, const double* g, double* to, PairedExtremes* 
   cut_off_rows(nets[0], nets[1], to, extremes, sums);
 }
 
-/// Sums of the rows up to `last` with eight columns of a matrix.
+/// Sums of the rows up to `last` with eight columns of a matrix that is zero above its diagonal. As
+/// many columns at a time as registers hold the sums of.
 HWY_INLINE void combine_rows(const Row* rows, int last, const double* matrix, Row* result) {
-  Row sum[8];
-  for (int k = 0; k < 8; ++k) sum[k] = rows[0] * Row::all(matrix[k]);
-  for (int i = 1; i <= last; ++i) {
-    const Row row = rows[i];
-    for (int k = 0; k < 8; ++k) sum[k] = sum[k] + row * Row::all(matrix[Powers::kRow * i + k]);
+  constexpr int kColumns = kParts == 1 ? 8 : kParts == 2 ? 4 : 2;
+  for (int first = 0; first < 8; first += kColumns) {
+    Row sum[kColumns];
+    for (int k = 0; k < kColumns; ++k) sum[k] = Row::all(0);
+    for (int i = first; i <= last; ++i) {
+      const Row row = rows[i];
+      const double* factors = matrix + Powers::kRow * i + first;
+      for (int k = 0; k < kColumns; ++k) sum[k] = sum[k] + row * Row::all(factors[k]);
+    }
+    for (int k = 0; k < kColumns; ++k) result[first + k] = sum[k];
   }
-  for (int k = 0; k < 8; ++k) result[k] = sum[k];
 }
 
 /// A polynomial of a total degree up to 15, in powers, as a Chebyshev net on a box: what belongs to
