@@ -69,8 +69,8 @@ struct Totals {
   }
 };
 
-/// The coefficients of a tile, from numbers high + low (`turned`: rows are those of the second
-/// variable), and their sums.
+/// The coefficients of a tile, from numbers high + low, or high if there is no low (`turned`: rows
+/// are those of the second variable), and their sums.
 void fill_tile(const double* high, const double* low, int degree, int stride, bool turned,
                double* a, TileSums* sums) {
   const Row zero = Row::all(0);
@@ -89,8 +89,9 @@ void fill_tile(const double* high, const double* low, int degree, int stride, bo
     for (int j = 0; i + j <= last; ++j) {
       const std::size_t from = (static_cast<std::size_t>(i) * stride + j) * 8;
       Row c[8];
-      for (int r = 0; r < 8; ++r)
-        c[r] = Row::load(high + from + r * stride) + Row::load(low + from + r * stride);
+      for (int r = 0; r < 8; ++r) c[r] = Row::load(high + from + r * stride);
+      if (low)
+        for (int r = 0; r < 8; ++r) c[r] = c[r] + Row::load(low + from + r * stride);
       if (i + j >= 2) {
         for (int r = 0; r < 8; ++r) dropped.add(absolute(c[r]), 8 * (i + j) + r);
         continue;
@@ -220,14 +221,14 @@ void claim_nothing(Tile* tile) {
       std::numeric_limits<double>::infinity();
 }
 
-CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, bool turned,
-                     double error, double relative) {
+CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, bool paired,
+                     bool turned, double error, double relative) {
   tile->degree = std::min(n, Tile::kMaxDegree);
   tile->undefined = false;
   TileSums sums;
   HWY_DYNAMIC_DISPATCH(fill_tile)
-  (coefficients.high(), coefficients.low(), n, coefficients.stride, turned, tile->a[0].data(),
-   &sums);
+  (coefficients.high(), paired ? coefficients.low() : nullptr, n, coefficients.stride, turned,
+   tile->a[0].data(), &sums);
   tile->sum = sums.kept[0] * kUp;
   tile->slope = sums.kept[1] * kUp;
   tile->bend = sums.kept[2] * kUp;
