@@ -276,17 +276,22 @@ TEST(Tile, HalvingLosesLittleWhereNumbersCancel) {
 
 TEST(Tile, HalvingInDoublesLosesNoMoreThanItSays) {
   Random random(12);
-  for (const int degree : {10, 13, 15, 20}) {
+  for (const int degree : {13, 15, 20}) {
+    // Terms of a high degree that no tile of the whole box can have, and little that cancels.
+    const auto power = [&](const char* variable) {
+      return written::polynomial<2>("300 " + std::string(variable) + "^" + std::to_string(degree));
+    };
+    const FilteredFunction<2> f(random_polynomial(degree, degree % 2 == 0, random) + power("x") +
+                                power("y"));
+    Kernel kernel;
+    const Box<2> root{{-1, -1}, {1, 1}};
+    TiledFunction tiled(f, root, kernel);
     int in_doubles = 0;
-    for (const Box<2>& root : {Box<2>{{-2, -2}, {2, 2}}, Box<2>{{0.25, -6.25}, {8.25, 1.75}}}) {
-      const FilteredFunction<2> f(random_polynomial(degree, degree % 2 == 0, random));
-      Kernel kernel;
-      TiledFunction tiled(f, root, kernel);
-      for (const Point<2>& point : random_points(root, 6, random)) {
-        const Tile& tile = tiled.at(point);
-        expect_true(tile, f);
-        in_doubles += tile.error > 0x1p-52 * tile.sum;
-      }
+    for (const Point<2>& point : random_points(root, 8, random)) {
+      const Tile& tile = tiled.at(point);
+      expect_true(tile, f);
+      // Others have been rounded only once.
+      in_doubles += tile.error > 0x1p-51 * tile.sum;
     }
     EXPECT_GT(in_doubles, 2) << degree;
   }
