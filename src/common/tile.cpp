@@ -74,6 +74,18 @@ struct Totals {
   }
 };
 
+/// Taylor's shift to 1 of the terms with exponents from 8 on.
+HWY_INLINE void shift_high_powers(const Row& powers, int degree, double* high_terms) {
+  HWY_ALIGN double of_power[8];
+  powers.store(of_power);
+  Row shifted = Row::all(0);
+  for (int i = std::min(degree, Tile::kMaxDegree); i >= 8; --i)
+    shifted = shifted + Row::all(of_power[i - 8]) * Row::load(kHighBinomials.of[i - 8]);
+  HWY_ALIGN double result[8];
+  shifted.store(result);
+  std::copy(result, result + 8, high_terms);
+}
+
 /// The coefficients of a tile, from numbers high + low, or high if there is no low (`turned`: rows
 /// are those of the second variable), and their sums.
 void fill_tile(const double* high, const double* low, int degree, int stride, bool turned,
@@ -135,15 +147,7 @@ void fill_tile(const double* high, const double* low, int degree, int stride, bo
     sums->kept[p] = sum_of_lanes(kept.sum[p]);
     sums->dropped[p] = sum_of_lanes(dropped.sum[p]);
   }
-  // Taylor's shift to 1.
-  HWY_ALIGN double of_power[8];
-  powers.store(of_power);
-  Row shifted = zero;
-  for (int i = std::min(degree, Tile::kMaxDegree); i >= 8; --i)
-    shifted = shifted + Row::all(of_power[i - 8]) * Row::load(kHighBinomials.of[i - 8]);
-  HWY_ALIGN double result[8];
-  shifted.store(result);
-  std::copy(result, result + 8, sums->high_terms);
+  shift_high_powers(powers, degree, sums->high_terms);
 }
 
 /// The value of sum a[i][j] s^i t^j and its derivatives.
