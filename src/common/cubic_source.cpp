@@ -41,15 +41,30 @@ constexpr Squares kSquares{{0, 1, 4, 9, 16, 25, 36, 49, 64, 81, 100, 121, 144, 1
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
-/// Sums of the rows up to `last` with eight columns of a matrix.
-HWY_INLINE void combine_rows(const Row* rows, int last, const double* matrix, Row* result) {
-  Row sum[8];
-  for (int k = 0; k < 8; ++k) sum[k] = rows[0] * Row::all(matrix[k]);
-  for (int i = 1; i <= last; ++i) {
-    const Row row = rows[i];
-    for (int k = 0; k < 8; ++k) sum[k] = sum[k] + row * Row::all(matrix[Powers::kRow * i + k]);
+/// Sums of the rows up to `last` with eight columns of a matrix that is zero above its diagonal. As
+/// many columns at a time as registers hold the sums of.
+HWY_INLINE void combine_rows(const double* rows, int stride, int last, const double* matrix,
+                             Row* result) {
+  constexpr int kColumns = kParts == 1 ? 8 : kParts == 2 ? 4 : 2;
+  for (int first = 0; first < 8; first += kColumns) {
+    Row sum[kColumns];
+    for (int k = 0; k < kColumns; ++k) sum[k] = Row::all(0);
+    for (int i = first; i <= last; ++i) {
+      const Row row = Row::load(rows + stride * i);
+      const double* factors = matrix + Powers::kRow * i + first;
+      for (int k = 0; k < kColumns; ++k) sum[k] = sum[k] + row * Row::all(factors[k]);
+    }
+    for (int k = 0; k < kColumns; ++k) result[first + k] = sum[k];
   }
-  for (int k = 0; k < 8; ++k) result[k] = sum[k];
+}
+
+/// The same, transposed.
+HWY_INLINE void combine_rows_across(const double* rows, int stride, int last, const double* matrix,
+                                    double* result) {
+  Row square[8];
+  combine_rows(rows, stride, last, matrix, square);
+  transpose(square);
+  for (int k = 0; k < 8; ++k) square[k].store(result + 8 * k);
 }
 
 /// A polynomial of a total degree up to 15, in powers, as a Chebyshev net on a box: what belongs to
@@ -58,18 +73,14 @@ void expand_powers(const double* a, int degree, const double* of_x, const double
                    HighSums* sums) {
   constexpr int kHigh = 8 * Powers::kRow + 8;
   const int above = degree - 8;  // the degree left where one variable has eight
-  Row rows[16], low[16], high[8];
-  for (int i = 0; i <= degree; ++i) rows[i] = Row::load(a + Tile::kRow * i);
-  combine_rows(rows, degree, of_x, low);
-  transpose(low);
+  HWY_ALIGN double low[16 * 8], high[8 * 8];
+  combine_rows_across(a, Tile::kRow, degree, of_x, low);
   if (above >= 0) {
-    combine_rows(rows + 8, above, of_x + kHigh, high);
-    for (int i = 0; i <= above; ++i) rows[i] = Row::load(a + Tile::kRow * i + 8);
-    combine_rows(rows, above, of_x, low + 8);
-    transpose(low + 8);
-    transpose(high);
+    combine_rows_across(a + 8 * Tile::kRow, Tile::kRow, above, of_x + kHigh, high);
+    combine_rows_across(a + 8, Tile::kRow, above, of_x, low + 64);
   }
-  combine_rows(low, degree, of_y, rows);
+  Row rows[8];
+  combine_rows(low, 8, degree, of_y, rows);
   Row size = Row::all(0), left_out = size, row_squares = size, lane_squares = size;
   for (int i = 0; i < 8; ++i) {
     rows[i].store(net + 8 * i);
@@ -77,14 +88,14 @@ void expand_powers(const double* a, int degree, const double* of_x, const double
   }
   if (above >= 0) {
     const Row squares = Row::load(kSquares.lane), high_squares = Row::load(kSquares.lane + 8);
-    combine_rows(low + 8, above, of_y + kHigh, rows);
+    combine_rows(low + 64, 8, above, of_y + kHigh, rows);
     for (int i = 0; i <= above; ++i) {
       const Row term = absolute(rows[i]);
       left_out = left_out + term;
       row_squares = row_squares + term * Row::all(kSquares.lane[8 + i]);
       lane_squares = lane_squares + term * squares;
     }
-    combine_rows(high, above, of_y, rows);
+    combine_rows(high, 8, above, of_y, rows);
     for (int i = 0; i <= above; ++i) {
       const Row term = absolute(rows[i]);
       left_out = left_out + term;

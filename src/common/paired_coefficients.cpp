@@ -238,6 +238,50 @@ void halve_slices(const double* slices, int degree, int stride, double* const* h
   for (int half = 0; half < 2; ++half) largest[half] = greatest_lane(most[half]);
 }
 
+/// Both halves of all rows of doubles, in doubles, as above. `turned`: rows become columns first.
+void halve_row_sums(const double* from, int degree, int stride, bool turned, double* lower,
+                    double* upper) {
+  static_assert(kMaxHalved < 32);
+  HWY_ALIGN double rows[8 * 32];
+  const int last = degree / 8;
+  for (int column = 0; column <= last; ++column) {
+    for (int block = 0; block + column <= last; ++block) {
+      const int i = turned ? column : block, j = turned ? block : column;
+      Row c[8];
+      for (int r = 0; r < 8; ++r)
+        c[r] = Row::load(from + (static_cast<std::size_t>(8 * i + r) * stride + 8 * j));
+      if (turned) transpose(c);
+      double scale = 1.0 / (1ll << (8 * block));
+      for (int r = 0; r < 8; ++r, scale *= 0.5)
+        (c[r] * Row::all(scale)).store(rows + 8 * (8 * block + r));
+    }
+    const int top = degree - 8 * column;
+    for (int k = 0; k <= top; k += 2) {
+      const double *binomial = kBinomials.over[k], *binomial_next = kBinomials.over[k + 1];
+      Row even = Row::all(0), odd = even, next_even = even, next_odd = even;
+      int i = k;
+      for (; i < top; i += 2) {
+        const Row row = Row::load(rows + 8 * i), other = Row::load(rows + 8 * i + 8);
+        even = even + row * Row::all(binomial[i]);
+        next_odd = next_odd + row * Row::all(binomial_next[i]);
+        odd = odd + other * Row::all(binomial[i + 1]);
+        next_even = next_even + other * Row::all(binomial_next[i + 1]);
+      }
+      if (i == top) {
+        const Row row = Row::load(rows + 8 * i);
+        even = even + row * Row::all(binomial[i]);
+        next_odd = next_odd + row * Row::all(binomial_next[i]);
+      }
+      const std::size_t to = static_cast<std::size_t>(k) * stride + 8 * column;
+      (even - odd).store(lower + to);
+      (even + odd).store(upper + to);
+      if (k == top) continue;
+      (next_even - next_odd).store(lower + to + stride);
+      (next_even + next_odd).store(upper + to + stride);
+    }
+  }
+}
+
 HWY_INLINE Pair multiply(const Pair& a, const Pair& b) {
   Pair r;
   r.high = exact_product(a.high, b.high, &r.low);
@@ -248,6 +292,16 @@ HWY_INLINE Pair add(const Pair& a, const Pair& b) {
   Pair r;
   r.high = exact_sum(a.high, b.high, &r.low);
   r.low = r.low + (a.low + b.low);
+  return r;
+}
+
+/// sum * at + next, with short ways from the sum's parts to those of the result.
+HWY_INLINE Pair horner_step(const Pair& sum, const Row& at, const Pair& next) {
+  Row product_error, sum_error;
+  const Row product = exact_product(sum.high, at, &product_error);
+  Pair r;
+  r.high = exact_sum(product, next.high, &sum_error);
+  r.low = sum.low * at + ((product_error + sum_error) + next.low);
   return r;
 }
 
@@ -270,14 +324,13 @@ HWY_INLINE Pair powers(double y, Pair* eighth) {
 /// The sum of coefficients times x^i y^j: Horner's rule over the rows, all powers of y at once.
 double value_of_rows(const double* high, const double* low, int degree, int stride, double x,
                      double y) {
-  const Row zero = Row::all(0);
-  const Pair at{Row::all(x), zero};
+  const Row zero = Row::all(0), at = Row::all(x);
   Pair eighth, of_y = powers(y, &eighth), total{zero, zero};
   for (int j = 0; j <= degree; j += 8) {
     Pair sum{zero, zero};
     for (int i = degree - j; i >= 0; --i) {
       const std::size_t from = static_cast<std::size_t>(i) * stride + j;
-      sum = add(multiply(sum, at), Pair{Row::load(high + from), Row::load(low + from)});
+      sum = horner_step(sum, at, Pair::load(high + from, low + from));
     }
     total = add(total, multiply(sum, of_y));
     of_y = multiply(of_y, eighth);
@@ -299,21 +352,14 @@ double value_of_rows(const double* high, const double* low, int degree, int stri
 void values_of_rows(const double* high, const double* low, int degree, int stride, const double* x,
                     const double* y, double* result) {
   const Row at_x = Row::load(x), at_y = Row::load(y);
-  const auto step = [](const Pair& sum, const Row& at, const Pair& next) {
-    Row product_error, sum_error;
-    const Row product = exact_product(sum.high, at, &product_error);
-    Pair r;
-    r.high = exact_sum(product, next.high, &sum_error);
-    r.low = sum.low * at + ((product_error + sum_error) + next.low);
-    return r;
-  };
   Pair total{};
   for (int i = degree; i >= 0; --i) {
     const std::size_t row = static_cast<std::size_t>(i) * stride;
     int j = degree - i;
     Pair sum{Row::all(high[row + j]), Row::all(low[row + j])};
-    while (--j >= 0) sum = step(sum, at_y, {Row::all(high[row + j]), Row::all(low[row + j])});
-    total = i == degree ? sum : step(total, at_x, sum);
+    while (--j >= 0)
+      sum = horner_step(sum, at_y, {Row::all(high[row + j]), Row::all(low[row + j])});
+    total = i == degree ? sum : horner_step(total, at_x, sum);
   }
   (total.high + total.low).store(result);
 }
@@ -330,6 +376,7 @@ HWY_EXPORT(turn_blocks);
 HWY_EXPORT(normalize_rows);
 HWY_EXPORT(slice_rows);
 HWY_EXPORT(halve_slices);
+HWY_EXPORT(halve_row_sums);
 HWY_EXPORT(value_of_rows);
 HWY_EXPORT(values_of_rows);
 
@@ -366,6 +413,16 @@ bool halve_rows(const PairedCoefficients& from, bool turned, double largest, int
   double* const low[2] = {lower.low(), upper.low()};
   HWY_DYNAMIC_DISPATCH(halve_slices)(slices, degree, from.stride, high, low, largest_of_both);
   return true;
+}
+
+void halve_rows_in_doubles(const PairedCoefficients& from, bool turned, int degree,
+                           const PairedCoefficients& lower, const PairedCoefficients& upper) {
+  HWY_DYNAMIC_DISPATCH(halve_row_sums)
+  (from.high(), degree, from.stride, turned, lower.high(), upper.high());
+}
+
+double halving_loss_in_doubles(int degree, double sum) {
+  return 0x1.04p-53 * (0.5 * degree + 3) * sum;
 }
 
 double halving_loss(int degree, double largest, double sum) {

@@ -50,6 +50,13 @@ bool halve_rows(const PairedCoefficients& from, bool turned, double largest, int
 /// What that loses at most, if the coefficients' absolute values add up to `sum`.
 double halving_loss(int degree, double largest, double sum);
 
+/// The same of the high parts alone, in doubles: low parts are neither read nor written.
+void halve_rows_in_doubles(const PairedCoefficients& from, bool turned, int degree,
+                           const PairedCoefficients& lower, const PairedCoefficients& upper);
+
+/// What that loses at most, and the low parts of `from` where high parts are rounded sums of both.
+double halving_loss_in_doubles(int degree, double sum);
+
 /// What sums of two doubles do not hold of the roundings of a shift or a value, relative to the sum
 /// of absolute values, in units of the square of the unit roundoff.
 double unheld_roundings(int degree);

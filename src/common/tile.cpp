@@ -31,23 +31,12 @@ constexpr HighBinomials make_high_binomials() {
 }
 constexpr HighBinomials kHighBinomials = make_high_binomials();
 
-/// By the degree k: kReach^k, k and k^2 times that, rounded up or by little.
-struct Weights {
-  double of[3][kMaxDegree + 16];
-};
-constexpr Weights make_weights() {
-  Weights t{};
-  for (int k = 0; k < kMaxDegree + 16; ++k) {
-    t.of[0][k] = Tile::reach_power(k);
-    t.of[1][k] = k * t.of[0][k];
-    t.of[2][k] = k * t.of[1][k];
-  }
-  return t;
-}
-constexpr Weights kWeights = make_weights();
+/// Masks for the lanes below some number up to 8: from entry 8 less that number on.
+constexpr double kLanesBelow[16] = {1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0};
 
-/// Sums over the absolute values of coefficients with the weights above: of those that a tile holds
-/// and of those that it has no room for; and Tile::high_terms but for their roundings.
+/// Sums over the absolute values of coefficients, and of them times their degree and its square: of
+/// those that a tile holds and of those that it has no room for; and Tile::high_terms but for their
+/// roundings.
 struct TileSums {
   double kept[3], dropped[3], high_terms[8];
 };
@@ -59,18 +48,46 @@ struct TileSums {
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
-/// Sums with the weights of degrees.
-struct Totals {
-  Row sum[3];
-  HWY_INLINE void clear() { sum[0] = sum[1] = sum[2] = Row::all(0); }
-  HWY_INLINE void add(const Row& size, int first) {
-    for (int p = 0; p < 3; ++p)
-      sum[p] = sum[p] + size * Row::load_unaligned(kWeights.of[p] + first);
+/// Sums over the rows of eight columns, from the last one down: of sizes; and, if m rows come after
+/// that of a size, of it times m and m (m - 1) / 2.
+struct ColumnSums {
+  Row sum, first, second;
+  HWY_INLINE void clear() { sum = first = second = Row::all(0); }
+  HWY_INLINE void add(const Row& size) {
+    second = second + first;
+    first = first + sum;
+    sum = sum + size;
   }
 };
 
-/// The coefficients of a tile, from numbers high + low (`turned`: rows are those of the second
-/// variable), and their sums.
+/// Sums of sizes, and of them times their degree and its square.
+struct Totals {
+  Row sum[3];
+  HWY_INLINE void clear() { sum[0] = sum[1] = sum[2] = Row::all(0); }
+  /// `degree`: that of lane 0 in the row added last.
+  HWY_INLINE void add(const ColumnSums& c, double degree) {
+    HWY_ALIGN static constexpr double kLane[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    const Row least = Row::load(kLane) + Row::all(degree), of_least = least * c.sum;
+    sum[0] = sum[0] + c.sum;
+    sum[1] = sum[1] + (c.first + of_least);
+    sum[2] = sum[2] + ((c.second + c.second) + c.first + least * (c.first + c.first + of_least));
+  }
+};
+
+/// Taylor's shift to 1 of the terms with exponents from 8 on.
+HWY_INLINE void shift_high_powers(const Row& powers, int degree, double* high_terms) {
+  HWY_ALIGN double of_power[8];
+  powers.store(of_power);
+  Row shifted = Row::all(0);
+  for (int i = std::min(degree, Tile::kMaxDegree); i >= 8; --i)
+    shifted = shifted + Row::all(of_power[i - 8]) * Row::load(kHighBinomials.of[i - 8]);
+  HWY_ALIGN double result[8];
+  shifted.store(result);
+  std::copy(result, result + 8, high_terms);
+}
+
+/// The coefficients of a tile, from numbers high + low, or high if there is no low (`turned`: rows
+/// are those of the second variable), and their sums.
 void fill_tile(const double* high, const double* low, int degree, int stride, bool turned,
                double* a, TileSums* sums) {
   const Row zero = Row::all(0);
@@ -85,51 +102,52 @@ void fill_tile(const double* high, const double* low, int degree, int stride, bo
     zero.store(a + (8 + i) * Tile::kRow);
   }
   const int last = degree / 8;
-  for (int i = 0; i <= last; ++i)
-    for (int j = 0; i + j <= last; ++j) {
+  for (int j = 0; j <= last; ++j) {
+    ColumnSums inner, outer;
+    inner.clear();
+    outer.clear();
+    for (int i = last - j; i >= 0; --i) {
       const std::size_t from = (static_cast<std::size_t>(i) * stride + j) * 8;
       Row c[8];
-      for (int r = 0; r < 8; ++r)
-        c[r] = Row::load(high + from + r * stride) + Row::load(low + from + r * stride);
+      for (int r = 0; r < 8; ++r) c[r] = Row::load(high + from + r * stride);
+      if (low)
+        for (int r = 0; r < 8; ++r) c[r] = c[r] + Row::load(low + from + r * stride);
       if (i + j >= 2) {
-        for (int r = 0; r < 8; ++r) dropped.add(absolute(c[r]), 8 * (i + j) + r);
+        for (int r = 7; r >= 0; --r) outer.add(absolute(c[r]));
         continue;
       }
+      // (The degrees in a square are symmetric: its sums may be those of columns.)
       if (turned) transpose(c);
       double* to = a + 8 * ((turned ? j : i) * Tile::kRow + (turned ? i : j));
       if (i + j == 0) {
-        for (int r = 0; r < 8; ++r) {
+        for (int r = 7; r >= 0; --r) {
           c[r].store(to + r * Tile::kRow);
-          kept.add(absolute(c[r]), r);
+          inner.add(absolute(c[r]));
         }
         continue;
       }
       Row size[8];
-      for (int r = 0; r < 8; ++r) {
-        const Row inside = first_lanes(c[r], zero, 8 - r);
+      for (int r = 7; r >= 0; --r) {
+        const Row inside = c[r] * Row::load_unaligned(kLanesBelow + r);
         inside.store(to + r * Tile::kRow);
         size[r] = absolute(inside);
-        kept.add(size[r], 8 + r);
-        dropped.add(absolute(c[r] - inside), 8 + r);
+        inner.add(size[r]);
+        outer.add(absolute(c[r] - inside));
       }
       // Columns of the block with s_1^8 and so on, rows of that with s_0^8.
       if ((i == 1) != turned) transpose(size);
       powers = powers + (((size[0] + size[1]) + (size[2] + size[3])) +
                          ((size[4] + size[5]) + (size[6] + size[7])));
     }
+    kept.add(inner, 8 * j);
+    // The first block of all has no part in these.
+    dropped.add(outer, j == 0 ? 8 : 8 * j);
+  }
   for (int p = 0; p < 3; ++p) {
     sums->kept[p] = sum_of_lanes(kept.sum[p]);
     sums->dropped[p] = sum_of_lanes(dropped.sum[p]);
   }
-  // Taylor's shift to 1.
-  HWY_ALIGN double of_power[8];
-  powers.store(of_power);
-  Row shifted = zero;
-  for (int i = std::min(degree, Tile::kMaxDegree); i >= 8; --i)
-    shifted = shifted + Row::all(of_power[i - 8]) * Row::load(kHighBinomials.of[i - 8]);
-  HWY_ALIGN double result[8];
-  shifted.store(result);
-  std::copy(result, result + 8, sums->high_terms);
+  shift_high_powers(powers, degree, sums->high_terms);
 }
 
 /// The value of sum a[i][j] s^i t^j and its derivatives.
@@ -220,14 +238,19 @@ void claim_nothing(Tile* tile) {
       std::numeric_limits<double>::infinity();
 }
 
-CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, bool turned,
-                     double error, double relative) {
+CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, bool paired,
+                     bool turned, double error, double relative) {
   tile->degree = std::min(n, Tile::kMaxDegree);
   tile->undefined = false;
   TileSums sums;
   HWY_DYNAMIC_DISPATCH(fill_tile)
-  (coefficients.high(), coefficients.low(), n, coefficients.stride, turned, tile->a[0].data(),
-   &sums);
+  (coefficients.high(), paired ? coefficients.low() : nullptr, n, coefficients.stride, turned,
+   tile->a[0].data(), &sums);
+  // The coefficients' powers of kReach are at most those of the highest degrees.
+  const double kept_reach = Tile::reach_power(tile->degree) * kUp,
+               dropped_reach = Tile::reach_power(n) * kUp;
+  for (double& sum : sums.kept) sum *= kept_reach;
+  for (double& sum : sums.dropped) sum *= dropped_reach;
   tile->sum = sums.kept[0] * kUp;
   tile->slope = sums.kept[1] * kUp;
   tile->bend = sums.kept[2] * kUp;

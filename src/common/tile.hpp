@@ -56,9 +56,10 @@ struct CoefficientSums {
 };
 /// Makes a tile, but for its place and `value_error`, of Taylor coefficients of a polynomial of
 /// degree n, the errors of which add up to at most `error`; each is rounded to a relative
-/// `relative`. `turned`: their rows are those of the second variable.
-CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, bool turned,
-                     double error, double relative);
+/// `relative`. `turned`: their rows are those of the second variable. `paired`: they have low
+/// parts.
+CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, bool paired,
+                     bool turned, double error, double relative);
 
 /// Makes a tile that claims nothing.
 void claim_nothing(Tile* tile);
@@ -117,6 +118,7 @@ class TiledFunction {
   struct Workspace;
   void develop(Node& node);
   void halve(Expansion& parent, Node* children);
+  void make_quarter(const Expansion& parent, Node& node, Expansion& e);
   bool serves(Node& node, Tile& tile, double dropped);
   double make(const Box<2>& box, int bits, bool in_tree, Tile* tile, Expansion* expansion);
   double make_from_model(int bits, Tile* tile);

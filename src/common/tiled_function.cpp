@@ -16,6 +16,9 @@ constexpr double kUp = 1 + 0x1p-40;  // outweighs the roundings of the sums it m
 constexpr int kMaxDepth = 8;         // of the quadtree of tiles
 // The error that a tile of the tree may have from halving, beside the sum of its coefficients.
 constexpr double kHalvingError = 0x1p-57;
+// The same where doubles serve, and whether they are tried: what a halving loses beside a tile's
+// coefficients of low degree.
+constexpr double kErrorInDoubles = 0x1p-36, kLossInDoubles = 0x1p-39;
 constexpr double kRounded = 0x1.01p-53;  // relative: of a sum of two doubles that becomes one
 
 /// (1 + x + y)^n, rounded up.
@@ -65,6 +68,14 @@ double beyond_degree_7(int k) {
   return std::ldexp(sum, 1 - k);
 }
 
+/// The absolute values of the coefficients of degrees up to 2, in rows.
+double size_of_low_terms(const double* rows, int stride) {
+  double size = 0;
+  for (int i = 0; i <= 2; ++i)
+    for (int j = 0; i + j <= 2; ++j) size += std::fabs(rows[i * stride + j]);
+  return size;
+}
+
 /// Whether the tile serves for the whole rectangle: its terms of higher degree do not matter, and
 /// patches some times smaller than the rectangle keep close to it. `tolerated`: beside the others.
 bool tile_serves(const Tile& tile, double dropped, double tolerated) {
@@ -74,9 +85,7 @@ bool tile_serves(const Tile& tile, double dropped, double tolerated) {
     for (int k = 0; k < 8; ++k) w[k] = std::ldexp(beyond_degree_7(8 + k), -2 * (8 + k));
     return w;
   }();
-  double size = 0;
-  for (int i = 0; i <= 2; ++i)
-    for (int j = 0; i + j <= 2; ++j) size += std::fabs(tile.a[i][j]);
+  const double size = size_of_low_terms(tile.a[0].data(), Tile::kRow);
   double loss = 0;
   for (int k = 0; k < 8; ++k) loss += weights[k] * tile.high_terms[k];
   return dropped <= tolerated * size && loss <= 0x1p-5 * size;
@@ -106,10 +115,11 @@ double tolerated_error(const FilteredFunction<2>& f, const Box<2>& box) {
 struct TiledFunction::Expansion {
   PairedCoefficients coefficients;
   Point<2> center{}, half{};
-  int rows_axis = 0;    ///< 0: the coefficients of a power of x are a row; 1: of y
-  bool halved = false;  ///< comes from halving: low is what high lacks
-  double largest = 0;   ///< |high|, if `halved`
-  double sum = 0;       ///< at least the coefficients' absolute values, times kReach^degree
+  int rows_axis = 0;        ///< 0: the coefficients of a power of x are a row; 1: of y
+  bool halved = false;      ///< comes from halving: low is what high lacks
+  bool in_doubles = false;  ///< there are no low parts
+  double largest = 0;       ///< |high|, if `halved`
+  double sum = 0;           ///< at least the coefficients' absolute values, times kReach^degree
   // What bounds their errors, added up likewise:
   Point<2> origin{};        ///< the centre of the expansion made directly that this comes from
   double halving_loss = 0;  ///< of the halvings since, and what underflows
@@ -294,51 +304,67 @@ void TiledFunction::halve(Expansion& parent, Node* children) {
   PairedCoefficients& c = parent.coefficients;
   if (!parent.halved) parent.largest = normalize(c, n);
   w.prepare_halving();
-  const double most = parent.largest, underflow = 0x1p-900;
-  double largest[2];
-  if (!halve_rows(c, false, most, n, w.slices, w.halves[0], w.halves[1], largest)) return;
-  const double loss = parent.halving_loss + halving_loss(n, most, parent.sum) + underflow;
+  const double loss_in_doubles = halving_loss_in_doubles(n, parent.sum);
+  const bool in_doubles = parent.in_doubles ||
+                          loss_in_doubles <= kLossInDoubles * size_of_low_terms(c.high(), c.stride);
+  const auto halve_along = [&](const PairedCoefficients& from, bool second, double largest,
+                               const PairedCoefficients& lower, const PairedCoefficients& upper,
+                               double* largest_of_both, double* loss) {
+    *loss += in_doubles ? loss_in_doubles : halving_loss(n, largest, parent.sum);
+    if (!in_doubles)
+      return halve_rows(from, second, largest, n, w.slices, lower, upper, largest_of_both);
+    halve_rows_in_doubles(from, second, n, lower, upper);
+    return true;
+  };
+  double largest[2] = {0, 0}, loss = parent.halving_loss + 0x1p-900;  // (What underflows.)
+  if (!halve_along(c, false, parent.largest, w.halves[0], w.halves[1], largest, &loss)) return;
   for (int first = 0; first < 2; ++first) {
     Expansion* child[2] = {w.take(), w.take()};
-    double largest_of[2];
-    const bool done = halve_rows(w.halves[first], true, largest[first], n, w.slices,
-                                 child[0]->coefficients, child[1]->coefficients, largest_of);
-    const double losses = (loss + halving_loss(n, largest[first], parent.sum)) * kUp;
+    double largest_of[2] = {0, 0}, losses = loss;
+    const bool done = halve_along(w.halves[first], true, largest[first], child[0]->coefficients,
+                                  child[1]->coefficients, largest_of, &losses);
     for (int second = 0; second < 2; ++second) {
       const int upper = parent.rows_axis == 0 ? first + 2 * second : 2 * first + second;
-      Node& node = children[upper];
       Expansion& e = *child[second];
       if (!done) {
         w.give_back(&e);
         continue;
       }
-      ++kernel_->expansions;
-      Tile* tile = w.tile();
-      place(tile, node.box);
-      tile->bits = Kernel::kDoubleBits;
-      tile->value_error = precise_error(reach_of(*tile));
-      e.rows_axis = 1 - parent.rows_axis;
-      e.halved = true;
+      e.in_doubles = in_doubles;
       e.largest = largest_of[second];
-      e.center = tile->center;
-      e.half = tile->half;
-      e.origin = parent.origin;
-      e.halving_loss = losses;
-      // What the direct expansion lacks, as far as here.
-      Point<2> reach;
-      for (int i = 0; i < 2; ++i) {
-        const double way = std::fabs(tile->center[i] - e.origin[i]);
-        reach[i] = (std::fabs(e.origin[i]) + way + tile->half[i] * Tile::kReach) * kUp;
-      }
-      const double error = precise_error(reach) + losses;
-      const CoefficientSums sums = fill(tile, n, e.coefficients, e.rows_axis == 1, error, kRounded);
-      e.sum = (sums.kept + sums.dropped) * kUp;
-      if (error <= kHalvingError * tile->sum && !serves(node, *tile, sums.dropped))
-        node.expansion = &e;
-      else
-        w.give_back(&e);
+      e.halving_loss = losses * kUp;
+      make_quarter(parent, children[upper], e);
     }
   }
+}
+
+/// Makes the tile of a quarter of a rectangle from its expansion; keeps one of both, if it serves.
+void TiledFunction::make_quarter(const Expansion& parent, Node& node, Expansion& e) {
+  ++kernel_->expansions;
+  Tile* tile = workspace_->tile();
+  place(tile, node.box);
+  tile->bits = Kernel::kDoubleBits;
+  tile->value_error = precise_error(reach_of(*tile));
+  e.rows_axis = 1 - parent.rows_axis;
+  e.halved = true;
+  e.center = tile->center;
+  e.half = tile->half;
+  e.origin = parent.origin;
+  // What the direct expansion lacks, as far as here.
+  Point<2> reach;
+  for (int i = 0; i < 2; ++i) {
+    const double way = std::fabs(tile->center[i] - e.origin[i]);
+    reach[i] = (std::fabs(e.origin[i]) + way + tile->half[i] * Tile::kReach) * kUp;
+  }
+  const double error = precise_error(reach) + e.halving_loss;
+  const CoefficientSums sums = fill(tile, f_->degree(), e.coefficients, !e.in_doubles,
+                                    e.rows_axis == 1, error, e.in_doubles ? 0 : kRounded);
+  e.sum = (sums.kept + sums.dropped) * kUp;
+  const double tolerated = e.in_doubles ? kErrorInDoubles : kHalvingError;
+  if (error <= tolerated * tile->sum && !serves(node, *tile, sums.dropped))
+    node.expansion = &e;
+  else
+    workspace_->give_back(&e);
 }
 
 /// Makes a tile from the polynomial's coefficients, and the expansion that it comes from (in MPFR
@@ -357,16 +383,16 @@ double TiledFunction::make(const Box<2>& box, int bits, bool in_tree, Tile* tile
     std::fill_n(c.memory->x, 8 * PairedCoefficients::size_for(n), 0.0);
     for (std::size_t i = 0, rows = static_cast<std::size_t>(n) + 1; i < rows; ++i)
       std::copy_n(&taylor.coefficients[i * rows], rows - i, c.high() + i * c.stride);
-    return fill(tile, n, c, false, taylor.error * Tile::reach_power(n), 0).dropped;
+    return fill(tile, n, c, true, false, taylor.error * Tile::reach_power(n), 0).dropped;
   }
   ++kernel_->expansions;
   expand_directly(*tile, in_tree, expansion);
   // What the shifts lose: docs/error-bounds.md.
-  const CoefficientSums sums = fill(tile, n, c, true, tile->value_error, kRounded);
+  const CoefficientSums sums = fill(tile, n, c, true, true, tile->value_error, kRounded);
   expansion->center = expansion->origin = tile->center;
   expansion->half = tile->half;
   expansion->rows_axis = 1;
-  expansion->halved = false;
+  expansion->halved = expansion->in_doubles = false;
   expansion->sum = (sums.kept + sums.dropped) * kUp;
   expansion->halving_loss = 0x1p-900 * growth(reach, n);
   return sums.dropped;
@@ -386,7 +412,7 @@ double TiledFunction::make_from_model(int bits, Tile* tile) {
   for (int i = 0; model.exists() && i <= model.span[0]; ++i)
     std::copy_n(&model.c[static_cast<std::size_t>(i * model.stride)],
                 std::min(model.span[1], model.degree - i) + 1, c.high() + i * c.stride);
-  fill(tile, std::max(1, model.degree), c, false, 0, 0);
+  fill(tile, std::max(1, model.degree), c, true, false, 0, 0);
   if (!model.exists() || !std::isfinite(tile->error)) {
     claim_nothing(tile);
     tile->undefined = model.undefined;
