@@ -64,6 +64,12 @@ double cells_for_branches(int branches, int crossings) {
   return kPerBranch * branches + kPerUncrossedBranch * uncrossed(branches, crossings);
 }
 
+bool is_among(const Line& line, const std::vector<Line>& lines) {
+  return std::any_of(lines.begin(), lines.end(), [&](const Line& other) {
+    return line.normal == other.normal && line.offset == other.offset;
+  });
+}
+
 constexpr int kCrossingsInTable = 64, kBranchesInTable = 16;
 
 struct Expectations {
@@ -94,6 +100,7 @@ CellAtHand::CellAtHand(Partition& partition) : partition_(partition) {
 
 void CellAtHand::take(const OpenCell& cell) {
   cell_ = &cell;
+  avoided_ = nullptr;
   start_again();
   find_curves();
   whole_.crossings = static_cast<int>(cell.crossings.size());
@@ -446,6 +453,7 @@ bool CellAtHand::weigh(double limit, Proposal* proposal) {
 
 void CellAtHand::propose(const Line& line) {
   ++partition_.lines_tried;
+  if (avoided_ && is_among(line, *avoided_)) return;
   prepare();
   Proposal proposal{line, 0, false};
   if (!weigh(best_score_ - kTie, &proposal)) return;

@@ -19,6 +19,8 @@ class CellAtHand {
 
   /// Turns to another cell, which must outlive this use.
   void take(const OpenCell& cell);
+  /// Does not split that cell by any of these lines, which must outlive this use too.
+  void avoid(const std::vector<Line>& lines) { avoided_ = &lines; }
 
   Partition& partition() { return partition_; }
   const OpenCell& cell() const { return *cell_; }
@@ -148,6 +150,7 @@ class CellAtHand {
 
   Partition& partition_;
   const OpenCell* cell_ = nullptr;
+  const std::vector<Line>* avoided_ = nullptr;
   Part whole_;
   std::array<Part, 2> parts_;
   std::array<Branches, 2> branches_;  // of all curves, in either part

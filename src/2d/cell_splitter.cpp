@@ -115,6 +115,7 @@ void CellSplitter::process_next() {
   CellState settled = CellState::Undecided;
   certificates_.clear();
   work_->at_hand.take(cell);
+  if (cell.parent < 0) work_->at_hand.avoid(avoided_);
   bool repeated = repeat_cut();
   bool found = repeated || find_cut(&settled);
   OpenCell negative(partition_.memory()), positive(partition_.memory());
@@ -138,9 +139,10 @@ void CellSplitter::process_next() {
   open_.push_back(std::move(negative));
 }
 
-void CellSplitter::run(int most_cells) {
+template <class Condition>
+void CellSplitter::run_while(Condition condition) {
   const double features = static_cast<double>(partition_.crossings.size() + 1);
-  for (; has_open() && static_cast<int>(cells.size()) < most_cells; ++count_) {
+  for (; has_open() && condition(); ++count_) {
     const auto done = static_cast<double>(cells.size()),
                left = static_cast<double>(open_.size() - 1) + features;
     if (count_ % 64 == 63) task_.progress(done / (done + left));
@@ -149,6 +151,26 @@ void CellSplitter::run(int most_cells) {
     process_next();
   }
   rest();
+}
+
+void CellSplitter::run(int most_cells) {
+  run_while([&] { return static_cast<int>(cells.size()) < most_cells; });
+}
+
+/// The least number of cells that the open ones become: one for each crossing and, as a crossing
+/// lies on two branches, for each branch beyond.
+int CellSplitter::least_to_come() const {
+  std::size_t least = 0;
+  for (const OpenCell& cell : open_) {
+    const std::size_t crossings = cell.crossings.size(), branches = cell.word.size() / 2;
+    least +=
+        std::max<std::size_t>(1, std::max(crossings, branches - std::min(branches, crossings)));
+  }
+  return static_cast<int>(least);
+}
+
+void CellSplitter::run_below(int bound) {
+  run_while([&] { return static_cast<int>(cells.size()) + least_to_come() < bound; });
 }
 
 void CellSplitter::rest() {
@@ -213,6 +235,12 @@ void CellSplitter::finish(const OpenCell& open, CellState state) {
         cell.branches.push_back({c, cell.word[i], cell.word[j]});
     }
   cell.loop_certificates = certificates_;
+}
+
+void CellSplitter::forget() {
+  cells.clear();
+  splits = loop_splits = 0;
+  unfinished = 0;
 }
 
 void CellSplitter::join(const OpenCell& cell, CellSplitter* part) {

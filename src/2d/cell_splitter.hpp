@@ -30,8 +30,12 @@ class CellSplitter {
 
   void add(OpenCell cell) { open_.push_back(std::move(cell)); }
   bool has_open() const { return !open_.empty(); }
+  /// The first cell is not to be split by any of these lines.
+  void avoid_at_first(std::vector<Line> lines) { avoided_ = std::move(lines); }
   /// Depth first, until no cell is open, `most_cells` are finished, or it is stopped.
   void run(int most_cells);
+  /// Likewise, but also until it is known that there will be so many cells.
+  void run_below(int cells);
   /// Cuts the only open cell in two; false if it is simple, or splitting is stopped.
   bool halve();
   /// The open cells, the next one first. They are left to others; see `join`.
@@ -46,6 +50,8 @@ class CellSplitter {
   std::int64_t loop_splits = 0;
   int unfinished = 0;  ///< cells that no place that resists excuses
 
+  /// Forgets what it has made.
+  void forget();
   /// Takes over what another splitter has made of a cell that was handed over; its partition was
   /// begun with that cell.
   void join(const OpenCell& cell, CellSplitter* part);
@@ -54,6 +60,9 @@ class CellSplitter {
   enum class Shape { Simple, Relaxable, Complex };
   Shape shape_of_cell() const;
   void process_next();
+  template <class Condition>
+  void run_while(Condition condition);
+  int least_to_come() const;
   void rest();
   bool repeat_cut();
   bool find_cut(CellState* settled);
@@ -72,6 +81,7 @@ class CellSplitter {
   std::unique_ptr<Work> work_;
   std::vector<OpenCell> open_;                 // the next one last
   std::vector<LoopCertificate> certificates_;  // of the cell at hand
+  std::vector<Line> avoided_;                  // by the first cell
   std::int64_t count_ = 0;                     // of cells taken up
 };
 

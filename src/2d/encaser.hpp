@@ -88,6 +88,10 @@ class Encaser {
   void count_pairs();
   void report_concurrency();
   struct Part;
+  void split_whole(const SplittingTask& task, CellSplitter* result);
+  int enough_cells(const std::vector<Cell>& cells) const;
+  void think_again(const SplittingTask& task, const OpenCell& whole, int enough,
+                   CellSplitter* result);
   void split_in_parts(const SplittingTask& task, CellSplitter* result);
   static int cells_in(const Part& part);
   void gather(Part* part, int* left);

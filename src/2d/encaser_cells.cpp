@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "2d/cell_splitter.hpp"
 #include "2d/encaser.hpp"
+#include "2d/least_cells.hpp"
 #include "common/segments.hpp"
 
 namespace encase {
@@ -15,9 +18,22 @@ namespace {
 constexpr std::size_t kLeastPart = 512;
 constexpr int kMostHalvings = 12;
 
+// Cells are too many, and worth second thoughts, if they are more than this many times the least,
+// but not far more: then curves run close beside each other, as a rule, and no few cells do.
+constexpr int kTooMany = 2, kFarTooMany = 4;
+// There are second thoughts on so many cells or fewer. (In larger regions too many cells in one
+// place are made up for by others.)
+constexpr int kMostReconsidered = 64;
+constexpr int kMostTried = 200;  // cells of all second thoughts
+
 /// About in proportion to the work that a cell takes.
 std::size_t size_of(const OpenCell& cell) {
   return cell.crossings.size() + cell.critical_regions.size() + cell.word.size() / 2;
+}
+
+bool all_are_certified(const std::vector<Cell>& cells) {
+  return std::all_of(cells.begin(), cells.end(),
+                     [](const Cell& cell) { return cell.state == CellState::Certified; });
 }
 
 }  // namespace
@@ -49,14 +65,69 @@ void Encaser::split_cells() {
   const SplittingTask task{
       options_, earlier_, bounds_, result_.undecided, [this] { return out_of_budget(); }, tell};
   CellSplitter splitter(*partition_, task);
-  splitter.cells.reserve(2 * features_.crossings.size() + 16);
-  if (polynomials_.size() > 2) {
+  if (polynomials_.size() > 2)
     split_in_parts(task, &splitter);
-  } else {
-    splitter.add(std::move(first_cell_));
-    run_out(&splitter, options_.max_cells);
-  }
+  else
+    split_whole(task, &splitter);
   take_cells(&splitter);
+}
+
+/// The region in one, and again if that makes too many cells.
+void Encaser::split_whole(const SplittingTask& task, CellSplitter* result) {
+  OpenCell whole(partition_->memory());
+  if (!options_.fast) whole = first_cell_;
+  result->cells.reserve(2 * features_.crossings.size() + 16);
+  result->add(std::move(first_cell_));
+  run_out(result, options_.max_cells);
+  const int enough = enough_cells(result->cells);
+  if (static_cast<int>(result->cells.size()) > enough) think_again(task, whole, enough, result);
+}
+
+/// With how many cells a partition is good enough, not to be tried again: with those it has, unless
+/// they are too many.
+int Encaser::enough_cells(const std::vector<Cell>& cells) const {
+  const int made = static_cast<int>(cells.size());
+  const auto crossings = std::count_if(cells.begin(), cells.end(),
+                                       [](const Cell& cell) { return cell.crossing >= 0; });
+  if (options_.fast || earlier_.first_cut() >= 0 || made > kMostReconsidered ||
+      made <= kTooMany * crossings || !all_are_certified(cells))
+    return made;
+  const int least = least_cells(cells, partition_->line_crossings, static_cast<int>(sides_.size()));
+  return made > kFarTooMany * least ? made : kTooMany * least;
+}
+
+/// Splits the region again, each time by another line at first, until the cells are few enough or
+/// it has been tried long enough; keeps the fewest. A try ends as soon as it cannot be better.
+void Encaser::think_again(const SplittingTask& task, const OpenCell& whole, int enough,
+                          CellSplitter* result) {
+  SplittingTask of_try = task;
+  of_try.progress = [&](double) { task.progress(1); };
+  std::vector<Line> first_lines{partition_->lines[whole.edges.size()]};
+  std::unique_ptr<Part> best;
+  int fewest = static_cast<int>(result->cells.size());
+  std::int64_t tried = 0;
+  while (fewest > enough && tried + fewest <= kMostTried && !out_of_budget()) {
+    auto part = std::make_unique<Part>(*this, *partition_, whole, of_try, options_.max_cells);
+    part->splitter.avoid_at_first(first_lines);
+    part->splitter.run_below(fewest);
+    kernel_.add(part->kernel);
+    if (part->partition.history.empty()) break;
+    tried += part->splitter.splits + 1;
+    first_lines.push_back(part->partition.lines[whole.edges.size()]);
+    partition_->lines_tried += std::exchange(part->partition.lines_tried, 0);
+    if (part->splitter.has_open() || !all_are_certified(part->splitter.cells)) continue;
+    fewest = static_cast<int>(part->splitter.cells.size());
+    best = std::move(part);
+  }
+  if (best) {
+    partition_->forget_cuts(whole);
+    result->forget();
+    result->join(whole, &best->splitter);
+  }
+  // (Every try has given the crossings cells.)
+  for (std::size_t k = 0; k < result->cells.size(); ++k)
+    if (const int crossing = result->cells[k].crossing; crossing >= 0)
+      features_.crossings[crossing].cell = static_cast<int>(k);
 }
 
 /// Splits what is open until the cells are at most so many. What is open then stays undecided.

@@ -161,6 +161,13 @@ void Partition::fill(OpenCell* cell) {
       cell->saddles.push_back(static_cast<int>(k));
 }
 
+void Partition::forget_cuts(const OpenCell& opened) {
+  lines.resize(opened.edges.size());
+  line_crossings.resize(opened.word.size());
+  spots_.resize(opened.word.size());
+  history.clear();
+}
+
 OpenCell Partition::begin(const Partition& whole, const OpenCell& cell) {
   OpenCell first(&memory_);
   first = cell;

@@ -125,6 +125,9 @@ class Partition {
   /// Gives the opened cell the crossings, critical regions, zones and saddles inside it.
   void fill(OpenCell* cell);
 
+  /// Forgets all cuts of the opened cell.
+  void forget_cuts(const OpenCell& opened);
+
   /// Begins with an open cell of another partition, as the whole of this one: its edges' lines and
   /// the crossings of its word come first here, in their order.
   OpenCell begin(const Partition& whole, const OpenCell& cell);

@@ -37,6 +37,7 @@ std::vector<NamedCurve> random(int degree, int count, std::uint64_t seed) {
 std::vector<Scene> scenes() {
   std::vector<Scene> all;
   all.push_back({"a pair", random(12, 2, 1)});
+  all.push_back({"a pair with second thoughts", random(5, 2, 27)});
   all.push_back({"six curves", random(8, 6, 2)});
   all.push_back({"twenty curves", random(5, 20, 3)});
   all.push_back({"tiles that are made on the way", random(24, 4, 9)});

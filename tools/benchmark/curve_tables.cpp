@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "branch_census.hpp"
 #include "encase/curves_file.hpp"
 #include "tables.hpp"
 

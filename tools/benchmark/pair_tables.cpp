@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "branch_census.hpp"
 #include "published.hpp"
 #include "tables.hpp"
 
