@@ -164,8 +164,7 @@ TEST(Patch, OfATileThatClaimsNothingProvesNothing) {
 
 /// Combinations of derivatives overflow long before the values do.
 TEST(Patch, CombinationsThatOverflowProveNothing) {
-  // The gradient is zero at the middle of the left side. In the combination that the Hessian
-  // suggests everything there is infinity less infinity, and all else has one sign.
+  // The gradient is zero at the middle of the left side.
   const FilteredFunction<2> f(written::polynomial<2>("x^2 + 3 x y - y^2"));
   Kernel kernel;
   int overflows = 0;
