@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 #include "common/box_tests.hpp"
 #include "common/plane_subdivision.hpp"
@@ -64,8 +63,7 @@ CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root
   const double small = result.root_box.largest_width() * 0x1p-10;
   constexpr int kFew = 64;
   int small_boxes = 0;
-  std::vector<std::pair<Box<2>, Sign>> proved_signs;  // of an expression
-  constexpr int kRegion = 0;
+  constexpr int kNegative = 0, kPositive = 1;  // tokens of leaves on which f has a sign
   const auto visit = [&](const PlaneSubdivision<1>::Node& node) {
     const CriticalVerdict verdict = test_critical(node.net);
     const auto& change = verdict.variation;  // zero if the gradient does not vanish
@@ -80,9 +78,8 @@ CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root
     }
     const int axis = splitting_axis(node, change);
     if (const auto sign = node.net.sign(); sign && node.box.width(axis) <= fine) {
-      if (!f.polynomial().is_polynomial()) proved_signs.push_back({node.box, *sign});
       result.other_points.push_back(node.box);
-      return kRegion;
+      return *sign == Sign::Positive ? kPositive : kNegative;
     }
     return cover::kSplitX - axis;
   };
@@ -92,22 +89,16 @@ CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root
   if (subdivision.unresolved())
     result.unresolved = leaves(result.root_box, result.tokens, cover::kUnresolved);
 
-  const std::vector<Box<2>> boxes = leaves(result.root_box, result.tokens, kRegion);
+  const std::vector<Box<2>> boxes =
+      leaves_with(result.root_box, result.tokens, [](int token) { return token >= 0; });
   const std::vector<int> component = connected_components(boxes);
   std::size_t next = 0;
   for (int& token : result.tokens) {
-    if (token != kRegion) continue;
+    if (token < 0) continue;
     const std::size_t k = component[next];
-    if (k >= result.regions.size()) {
-      // f was proved to have one sign on the leaf, and touching boxes share points: its exact sign
-      // at any point is that of the whole component.
-      const Point<2> center = boxes[next].center();
-      Sign sign = f.polynomial().sign_at({Rational(center[0]), Rational(center[1])}, kernel);
-      // (At a point an expression's sign may take more bits than there are.)
-      for (std::size_t i = 0; sign == Sign::Zero && i < proved_signs.size(); ++i)
-        if (proved_signs[i].first == boxes[next]) sign = proved_signs[i].second;
-      result.regions.push_back({curve, sign, {}});
-    }
+    // Boxes that touch share points, so f has one sign on the whole component.
+    if (k >= result.regions.size())
+      result.regions.push_back({curve, token == kPositive ? Sign::Positive : Sign::Negative, {}});
     result.regions[k].boxes.push_back(boxes[next]);
     token = static_cast<int>(k);
     ++next;

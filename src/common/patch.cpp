@@ -57,14 +57,6 @@ struct Extent {
 
 using Net = std::array<std::array<double, 8>, 8>;
 
-/// Stores the transpose of an N x N net; lanes from N on repeat the last one.
-template <int N>
-HWY_INLINE void store_transposed(Row* rows, Net* to) {
-  for (int i = N; i < 8; ++i) rows[i] = rows[N - 1];
-  transpose(rows);
-  for (int j = 0; j < N; ++j) rows[j].store((*to)[j].data());
-}
-
 /// Chebyshev coefficients across rows, turned into Bernstein ones: even polynomials have symmetric
 /// ones.
 template <int N>
@@ -97,25 +89,93 @@ HWY_INLINE Extremes bernstein_net(const double* from, const ChebyshevTable& tabl
   return extent.extremes();
 }
 
-/// De Casteljau's algorithm at 1/2 across the rows: sums of two, scaled at the end (powers of two
-/// change no rounding).
+HWY_INLINE bool beyond(const Extremes& e, double radius) { return e.lo > radius || e.hi < -radius; }
+
+/// The extremes of one part of several rows.
+struct PartExtent {
+  Vector lo, hi;
+  HWY_INLINE void add(Vector v) {
+    lo = hn::Min(lo, v);
+    hi = hn::Max(hi, v);
+  }
+  HWY_INLINE Extremes extremes() const {
+    return {hn::GetLane(hn::MinOfLanes(Lanes(), lo)), hn::GetLane(hn::MaxOfLanes(Lanes(), hi))};
+  }
+};
+
+/// De Casteljau's algorithm at 1/2 across the rows, for one part of them, which fits into
+/// registers: sums of two, scaled at the end (powers of two change no rounding).
 template <int N>
-HWY_INLINE void halve_rows(Row* t, Row* lower, Row* upper, Extremes* extremes) {
-  Extent low(t[0]), high(t[N - 1]);
+HWY_INLINE void halve_part(Vector* t, Vector* lower, Vector* upper, PartExtent* of_lower,
+                           PartExtent* of_upper) {
   lower[0] = t[0];
   upper[N - 1] = t[N - 1];
+  of_lower->add(lower[0]);
+  of_upper->add(upper[N - 1]);
   double scale = 1;
   for (int r = 1; r < N; ++r) {
-    for (int j = 0; j < N - r; ++j) t[j] = t[j] + t[j + 1];
+    for (int j = 0; j < N - r; ++j) t[j] = hn::Add(t[j], t[j + 1]);
     scale *= 0.5;
-    const Row s = Row::all(scale);
-    lower[r] = t[0] * s;
-    upper[N - 1 - r] = t[N - 1 - r] * s;
-    low.add(lower[r]);
-    high.add(upper[N - 1 - r]);
+    const Vector s = hn::Set(Lanes(), scale);
+    lower[r] = hn::Mul(t[0], s);
+    upper[N - 1 - r] = hn::Mul(t[N - 1 - r], s);
+    of_lower->add(lower[r]);
+    of_upper->add(upper[N - 1 - r]);
   }
-  extremes[0] = low.extremes();
-  extremes[1] = high.extremes();
+}
+
+/// Transposes a square of kLanes vectors.
+HWY_INLINE void transpose_square(const Vector* from, Vector* to) {
+#if HWY_MAX_BYTES == 64
+  Row rows[8];
+  for (int i = 0; i < 8; ++i) rows[i].part[0] = from[i];
+  transpose(rows);
+  for (int i = 0; i < 8; ++i) to[i] = rows[i].part[0];
+#elif HWY_MAX_BYTES == 32
+  const Lanes d;
+  const Vector even[2] = {hn::InterleaveLower(d, from[0], from[1]),
+                          hn::InterleaveLower(d, from[2], from[3])};
+  const Vector odd[2] = {hn::InterleaveUpper(d, from[0], from[1]),
+                         hn::InterleaveUpper(d, from[2], from[3])};
+  to[0] = hn::ConcatLowerLower(d, even[1], even[0]);
+  to[1] = hn::ConcatLowerLower(d, odd[1], odd[0]);
+  to[2] = hn::ConcatUpperUpper(d, even[1], even[0]);
+  to[3] = hn::ConcatUpperUpper(d, odd[1], odd[0]);
+#elif HWY_TARGET == HWY_SCALAR
+  to[0] = from[0];
+#else
+  const Vector upper = hn::InterleaveUpper(Lanes(), from[0], from[1]);
+  to[0] = hn::InterleaveLower(Lanes(), from[0], from[1]);
+  to[1] = upper;
+#endif
+}
+
+/// Part k of the rows of a net, or of its transpose.
+template <int N>
+HWY_INLINE void load_part(const Net& net, int k, bool transposed, Vector* part) {
+  if (!transposed) {
+    for (int i = 0; i < N; ++i) part[i] = hn::Load(Lanes(), net[i].data() + k * kLanes);
+    return;
+  }
+  for (int i = 0; i < 8; i += kLanes) {
+    Vector square[kLanes];
+    for (int j = 0; j < kLanes; ++j)
+      square[j] = hn::Load(Lanes(), net[std::min(k * kLanes + j, N - 1)].data() + i);
+    transpose_square(square, part + i);
+  }
+}
+
+/// Stores part k of N rows in that many rows of their transpose; lanes from N on repeat the last
+/// one.
+template <int N>
+HWY_INLINE void store_part_transposed(Vector* part, int k, Net* to) {
+  for (int i = N; i < 8; ++i) part[i] = part[N - 1];
+  for (int i = 0; i < 8; i += kLanes) {
+    Vector square[kLanes];
+    transpose_square(part + i, square);
+    for (int j = 0; j < kLanes && k * kLanes + j < N; ++j)
+      hn::Store(square[j], Lanes(), (*to)[k * kLanes + j].data() + i);
+  }
 }
 
 /// The partial derivatives at the corners of the box, without the factor degree / 2: across rows
@@ -132,6 +192,12 @@ HWY_INLINE CornerSlopes corner_slopes(const Net& net) {
           {first[1] - first[0], first[n] - first[n - 1], last[1] - last[0], last[n] - last[n - 1]}};
 }
 
+HWY_INLINE double size(double a) { return a < 0 ? -a : a; }
+
+HWY_INLINE double largest(const std::array<double, 4>& x) {
+  return std::max(std::max(size(x[0]), size(x[1])), std::max(size(x[2]), size(x[3])));
+}
+
 /// Whether no two have different signs.
 HWY_INLINE bool agree(const std::array<double, 4>& x) {
   const double lo = std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
@@ -139,103 +205,98 @@ HWY_INLINE bool agree(const std::array<double, 4>& x) {
   return lo > 0 || hi < 0;
 }
 
-HWY_INLINE double largest(const std::array<double, 4>& x) {
-  const auto size = [](double a) { return a < 0 ? -a : a; };
-  return std::max(std::max(size(x[0]), size(x[1])), std::max(size(x[2]), size(x[3])));
+/// A direction along which f ascends at all four corners, as much as possible where it does least:
+/// the point that is closest to zero between the outermost of the gradients. False if there is
+/// none.
+HWY_INLINE bool common_ascent(const CornerSlopes& slopes, double* direction) {
+  const auto &r = slopes.rows, &l = slopes.lanes;
+  double ar = r[0], al = l[0], br = ar, bl = al;  // no gradient lies to the right of a, left of b
+  for (int c = 1; c < 4; ++c) {
+    const bool right_of_a = ar * l[c]<al * r[c], left_of_b = br * l[c]> bl * r[c];
+    ar = right_of_a ? r[c] : ar;
+    al = right_of_a ? l[c] : al;
+    br = left_of_b ? r[c] : br;
+    bl = left_of_b ? l[c] : bl;
+  }
+  const double dr = br - ar, dl = bl - al;
+  const bool a_is_closest = ar * dr + al * dl >= 0, b_is_closest = br * dr + bl * dl <= 0;
+  direction[0] = a_is_closest ? ar : b_is_closest ? br : dl;
+  direction[1] = a_is_closest ? al : b_is_closest ? bl : -dr;
+  double least_rise = HUGE_VAL;
+  for (int c = 0; c < 4; ++c)
+    least_rise = std::min(least_rise, direction[0] * r[c] + direction[1] * l[c]);
+  return least_rise > 0;
 }
 
-HWY_INLINE bool beyond(const Extremes& e, double radius) { return e.lo > radius || e.hi < -radius; }
-
-/// A net between zeros: the rows, and for every row the neighbours of its lanes.
+/// The weights k/n and 1 - k/n with which differences of the neighbours of coefficient k make that
+/// of a derivative, raised to the degree of the net.
 template <int N>
-class Neighbours {
- public:
-  HWY_INLINE explicit Neighbours(const Net& net) {
-    Row::all(0).store(memory_);
-    for (int i = 0; i < N; ++i) Row::load(net[i].data()).store(memory_ + 8 * (i + 1));
-    Row::all(0).store(memory_ + 8 * (N + 1));
+struct RaisingWeights {
+  alignas(64) double before[8], after[8];
+  constexpr RaisingWeights() : before{}, after{} {
+    for (int k = 0; k < 8; ++k) {
+      before[k] = k < N ? static_cast<double>(k) / (N - 1) : 1;
+      after[k] = 1 - before[k];
+    }
   }
-  HWY_INLINE Row here(int i) const { return Row::load(memory_ + 8 * (i + 1)); }
-  HWY_INLINE Row next(int i) const { return Row::load_unaligned(memory_ + 8 * (i + 1) + 1); }
-  HWY_INLINE Row previous(int i) const { return Row::load_unaligned(memory_ + 8 * (i + 1) - 1); }
-
- private:
-  HWY_ALIGN double memory_[8 * (N + 2)];
 };
 
-/// The extremes of alpha times the derivative across rows and beta times that across lanes, both
-/// raised to the degree of the net: a coefficient k is made of the net's k - 1, k and k + 1 with
-/// the weights -k/n, 2k/n - 1 and 1 - k/n.
+/// The least coefficient of alpha times the derivative across rows and beta times that across
+/// lanes, without the factor degree / 2, both raised to the degree of the net.
 template <int N>
-HWY_INLINE Extremes combine_slopes(const Neighbours<N>& net, double alpha, double beta) {
-  constexpr double n = N - 1;
-  HWY_ALIGN double weight[2][8];
-  for (int j = 0; j < 8; ++j) {
-    weight[0][j] = j < N ? -j / n : -1;
-    weight[1][j] = j < N ? 1 - j / n : 0;
-  }
-  const Row before = Row::load(weight[0]), after = Row::load(weight[1]);
-  const Row here = Row::all(0) - (before + after);
-  const Row of_rows = Row::all(alpha), of_lanes = Row::all(beta);
-  Extent extent(Row::all(HUGE_VAL), Row::all(-HUGE_VAL));
+HWY_INLINE double least_combined_slope(const Net& net, double alpha, double beta) {
+  static constexpr RaisingWeights<N> weights;
+  const double* const memory = net[0].data();
+  HWY_ALIGN double first[16], last[16];  // the rows that have no neighbour in memory on one side
+  Row::all(0).store(first);
+  Row::load(memory).store(first + 8);
+  Row::load(memory + 8 * (N - 1)).store(last);
+  Row::all(0).store(last + 8);
+  const Row of_lanes = Row::all(beta);
+  const Row before = of_lanes * Row::load(weights.before),
+            after = of_lanes * Row::load(weights.after);
+  Row least_yet = Row::all(HUGE_VAL), rise = Row::all(0);
   for (int i = 0; i < N; ++i) {
-    const Row lanes = net.previous(i) * before + net.here(i) * here + net.next(i) * after;
-    Row rows = net.here(i) * Row::all(2 * i / n - 1);
-    if (i > 0) rows = rows + net.here(i - 1) * Row::all(-i / n);
-    if (i < N - 1) rows = rows + net.here(i + 1) * Row::all(1 - i / n);
-    extent.add(rows * of_rows + lanes * of_lanes);
+    const Row here = Row::load(memory + 8 * i);
+    const Row previous = Row::load_unaligned((i == 0 ? first + 8 : memory + 8 * i) - 1);
+    const Row next = Row::load_unaligned((i == N - 1 ? last : memory + 8 * i) + 1);
+    const Row lanes = (here - previous) * before + (next - here) * after;
+    Row rows = rise * Row::all(alpha * weights.before[i]);
+    if (i < N - 1) {
+      rise = Row::load(memory + 8 * (i + 1)) - here;
+      rows = rows + rise * Row::all(alpha * weights.after[i]);
+    }
+    least_yet = least(least_yet, rows + lanes);
   }
-  extent.keep_lanes(N);
-  return extent.extremes();
+  return least_lane(first_lanes(least_yet, Row::all(HUGE_VAL), N));
 }
 
-/// Whether one of the derivatives keeps a sign, or one of the two combinations of them that the
-/// mean Hessian's adjugate suggests, as far as its signs at the corners leave it possible.
-/// `radius`: of the differences, across rows and lanes, rounding included. `variation`: how much
-/// they change.
+/// Whether f ascends everywhere along some direction: first across rows, which takes less, then as
+/// its gradients at the corners suggest. `radius`: of the differences, across rows and lanes,
+/// rounding included. `variation`: how much they change, if not.
 template <int N>
 HWY_INLINE bool excludes(const Net& net, double magnitude, const double* radius,
                          double* variation) {
   const CornerSlopes slopes = corner_slopes<N>(net);
-  const auto &r = slopes.rows, &l = slopes.lanes;
-  if (agree(r)) {
-    Extent extent(Row::load(net[1].data()) - Row::load(net[0].data()));
+  const double* const memory = net[0].data();
+  if (agree(slopes.rows)) {
+    Extent extent(Row::load(memory + 8) - Row::load(memory));
     for (int i = 1; i + 1 < N; ++i)
-      extent.add(Row::load(net[i + 1].data()) - Row::load(net[i].data()));
+      extent.add(Row::load(memory + 8 * (i + 1)) - Row::load(memory + 8 * i));
     if (beyond(extent.extremes(), radius[0])) return true;
   }
-  // Means of second derivatives, about.
-  const double rows_twice = (r[2] - r[0]) + (r[3] - r[1]),
-               lanes_twice = (l[1] - l[0]) + (l[3] - l[2]);
-  const double mixed =
-      (2.0 / (N - 1)) * ((net[N - 1][N - 1] - net[N - 1][0]) - (net[0][N - 1] - net[0][0]));
-  const double y[2][2] = {{lanes_twice, -mixed}, {-mixed, rows_twice}};
-  std::array<double, 4> corners[2];
-  for (int k = 0; k < 2; ++k)
-    for (int c = 0; c < 4; ++c) corners[k][c] = y[k][0] * r[c] + y[k][1] * l[c];
-  const bool some[3] = {agree(l), agree(corners[0]), agree(corners[1])};
-  if (some[0] || some[1] || some[2]) {
-    const Neighbours<N> neighbours(net);
-    if (some[0]) {
-      Extent extent(neighbours.next(0) - neighbours.here(0));
-      for (int i = 1; i < N; ++i) extent.add(neighbours.next(i) - neighbours.here(i));
-      extent.keep_lanes(N - 1);
-      if (beyond(extent.extremes(), radius[1])) return true;
-    }
-    for (int k = 0; k < 2; ++k) {
-      if (!some[1 + k]) continue;
-      const Extremes e = combine_slopes(neighbours, y[k][0], y[k][1]);
-      const double alpha = y[k][0] < 0 ? -y[k][0] : y[k][0],
-                   beta = y[k][1] < 0 ? -y[k][1] : y[k][1];
-      // Weights, products and sums round; derivatives are at most 2 M. (Infinite where one of the
-      // coefficients overflows.)
-      const double rounding = (4 * magnitude * (alpha + beta)) * (8 * 0x1p-53);
-      if (beyond(e, (alpha * radius[0] + beta * radius[1] + rounding) * (1 + 0x1p-40) + 0x1p-1000))
-        return true;
-    }
+  double y[2];
+  if (common_ascent(slopes, y)) {
+    const double alpha = size(y[0]), beta = size(y[1]);
+    // Weights, differences, products and sums round; differences are at most 2 M. (Infinite where
+    // one of the coefficients overflows.)
+    const double rounding = (4 * magnitude * (alpha + beta)) * (8 * 0x1p-53);
+    const double least_slope = least_combined_slope<N>(net, y[0], y[1]);
+    if (least_slope > (alpha * radius[0] + beta * radius[1] + rounding) * (1 + 0x1p-40) + 0x1p-1000)
+      return true;
   }
-  variation[0] = largest(r);
-  variation[1] = largest(l);
+  variation[0] = largest(slopes.rows);
+  variation[1] = largest(slopes.lanes);
   return false;
 }
 
@@ -297,15 +358,24 @@ Extremes bernstein_patch(const double* from, const ChebyshevTable& table, Net* n
 void halve_patch(const Net& net, int count, bool along_lanes, double radius, Net* lower, Net* upper,
                  Extremes* extremes) {
   with_count(count, [&]<int N>() HWY_ATTR {
-    Row rows[8], low[8], high[8];
-    for (int i = 0; i < N; ++i) rows[i] = Row::load(net[i].data());
-    if (along_lanes) {
-      for (int i = N; i < 8; ++i) rows[i] = rows[N - 1];
-      transpose(rows);
+    constexpr int kUsed = (N + kLanes - 1) / kLanes;  // all others repeat a lane
+    Vector low[kUsed][8], high[kUsed][8];
+    PartExtent of_low, of_high;
+    for (int k = 0; k < kUsed; ++k) {
+      Vector part[8];
+      load_part<N>(net, k, along_lanes, part);
+      if (k == 0) {
+        of_low = {part[0], part[0]};
+        of_high = {part[N - 1], part[N - 1]};
+      }
+      halve_part<N>(part, low[k], high[k], &of_low, &of_high);
     }
-    halve_rows<N>(rows, low, high, extremes);
-    if (!(extremes[0].lo > radius || extremes[0].hi < -radius)) store_transposed<N>(low, lower);
-    if (!(extremes[1].lo > radius || extremes[1].hi < -radius)) store_transposed<N>(high, upper);
+    extremes[0] = of_low.extremes();
+    extremes[1] = of_high.extremes();
+    if (!beyond(extremes[0], radius))
+      for (int k = 0; k < kUsed; ++k) store_part_transposed<N>(low[k], k, lower);
+    if (!beyond(extremes[1], radius))
+      for (int k = 0; k < kUsed; ++k) store_part_transposed<N>(high[k], k, upper);
   });
 }
 

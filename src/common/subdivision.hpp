@@ -209,9 +209,9 @@ Subdivision<D> subdivide(const std::array<const FilteredFunction<D>*, N>& polyno
   return tree;
 }
 
-/// The boxes of a subdivision's leaves that carry one token, in preorder.
-template <int D>
-std::vector<Box<D>> leaves(const Box<D>& root, const std::vector<int>& tokens, int token) {
+/// The boxes of a subdivision's leaves whose tokens are wanted, in preorder.
+template <int D, class Wanted>
+std::vector<Box<D>> leaves_with(const Box<D>& root, const std::vector<int>& tokens, Wanted wanted) {
   std::vector<Box<D>> result, stack{root};
   for (const int t : tokens) {
     if (t <= cover::kSplitX && t >= cover::kSplitZ) {
@@ -223,11 +223,15 @@ std::vector<Box<D>> leaves(const Box<D>& root, const std::vector<int>& tokens, i
       stack.push_back(box);
       stack.back().hi[axis] = cut;
     } else {
-      if (t == token) result.push_back(stack.back());
+      if (wanted(t)) result.push_back(stack.back());
       stack.pop_back();
     }
   }
   return result;
+}
+template <int D>
+std::vector<Box<D>> leaves(const Box<D>& root, const std::vector<int>& tokens, int token) {
+  return leaves_with(root, tokens, [token](int t) { return t == token; });
 }
 
 }  // namespace encase
