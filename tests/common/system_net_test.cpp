@@ -161,6 +161,57 @@ INSTANTIATE_TEST_SUITE_P(Degrees, NetsOfDegree,
                          testing::Values(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 13, 15, 18, 25),
                          [](const auto& test) { return std::to_string(test.param); });
 
+/// Nets of any numbers that are exact themselves: what their parts lack is rounding.
+TEST(SystemNet, RoundingsAreWithinTheRadii) {
+  Random random(11);
+  double needed = 0;
+  for (int round = 0; round < 40; ++round) {
+    SystemNet net;
+    for (Patch& patch : net.of) {
+      patch.count = 3 + round % 6;
+      patch.rows_axis = round % 2;
+      for (int i = 0; i < patch.count; ++i)
+        for (int j = 0; j < 8; ++j)
+          patch.b[i][j] = j < patch.count ? symmetric_random(random) : patch.b[i][j - 1];
+      patch.lo = -1;
+      patch.hi = 1;
+    }
+    const double origin = 0.5 * symmetric_random(random);
+    Part part{{origin, -0.25}, {(1 - std::fabs(origin)) * 0.9, 0.7}};
+    SystemNet parts[4];
+    std::array<bool, 2> empty{false, false};
+    std::array<bool, 4> excluded{};
+    if (round % 3 == 0) {
+      excluded = quarter(net, &empty, parts);
+      part = {{0.5, -0.5}, {0.5, 0.5}};
+    } else {
+      restrict_to(net, part, &parts[0]);
+    }
+    // The quarter that is the upper one in x.
+    const int q = round % 3 > 0 ? 0 : net.of[0].rows_axis == 0 ? 1 : 2;
+    if (empty[q % 2] || excluded[q]) continue;
+    for (int k = 0; k < 2; ++k)
+      for (int point = 0; point < 4; ++point) {
+        const RationalPoint<2> s = random_point(random);
+        RationalPoint<2> there;
+        for (int i = 0; i < 2; ++i)
+          there[i] = Rational(part.origin[i]) + Rational(part.half[i]) * s[i];
+        const Jet2 of_whole = jet(net.of[k], there), of_part = jet(parts[q].of[k], s);
+        const Patch& patch = parts[q].of[k];
+        const Rational off = abs(of_whole.value - of_part.value);
+        EXPECT_GT(patch.radius, 0);
+        EXPECT_LE(off, Rational(patch.radius));
+        needed = std::max(needed, off.get_d() / patch.radius);
+        const int rows = patch.rows_axis;
+        const Rational slope[2] = {abs(of_whole.x * Rational(part.half[0]) - of_part.x),
+                                   abs(of_whole.y * Rational(part.half[1]) - of_part.y)};
+        EXPECT_LE(slope[rows], Rational(patch.slope_radius[0]));
+        EXPECT_LE(slope[1 - rows], Rational(patch.slope_radius[1]));
+      }
+  }
+  EXPECT_GT(needed, 0.001);
+}
+
 TEST(SystemNet, OfTilesThatClaimNothingProvesNothing) {
   const FilteredFunction<2> f(written::polynomial<2>("x^3 + y^3 + 1")),
       g(written::polynomial<2>("x^3 - y^2 + 2"));
