@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/cubic_source.hpp"
+#include "common/chebyshev_net.hpp"
 #include "common/interval.hpp"
 #include "encase/number.hpp"
 
@@ -484,21 +484,21 @@ const ChebyshevTable& chebyshev_table(int count) {
 int patch_count(int degree) { return std::clamp(degree + 1, 3, Patch::kMaxCount); }
 
 void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
-  CubicSource source;
-  expand(tile, box, &source);
+  ChebyshevNet chebyshev;
+  expand(tile, box, &chebyshev);
   const ChebyshevTable& table = chebyshev_table(count);
   const Extremes extremes =
-      HWY_DYNAMIC_DISPATCH(bernstein_patch)(source.c[0].data(), table, &patch->b);
+      HWY_DYNAMIC_DISPATCH(bernstein_patch)(chebyshev.c[0].data(), table, &patch->b);
   patch->count = count;
-  patch->rows_axis = 1 - source.rows_axis;
+  patch->rows_axis = 1 - chebyshev.rows_axis;
   patch->lo = extremes.lo;
   patch->hi = extremes.hi;
-  patch->radius = source.radius;
-  patch->left_out = source.left_out;
+  patch->radius = chebyshev.radius;
+  patch->left_out = chebyshev.left_out;
   // T_k'' is at most (k^2 - 1)/3 times as large as T_k' may be, k <= 15; and of two variables one
   // has a degree of at most 7.
   constexpr double kBend = (15 * 15 - 1) / 3.0, kMixed = 7 * 7;
-  const Point<2>& slope = source.slope_radius;
+  const Point<2>& slope = chebyshev.slope_radius;
   const double rounding = 15 * 15 * kBend * (tile.sum * 0x1p-45 + kTiny);
   Point<2> part;
   for (int i = 0; i < 2; ++i) part[i] = centered(box.lo[i], box.hi[i]).half / tile.half[i] * kUp;
@@ -512,7 +512,7 @@ void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
       (kMixed * (slope[0] + slope[1]) + tile.bend_error * part[0] * part[1] + rounding) * kUp;
   // An entry, a product and at most four sums round, in either variable.
   add_rounding(patch,
-               1.01 * kUnit * 12 * table.largest * table.largest * source.size * kUp + kTiny);
+               1.01 * kUnit * 12 * table.largest * table.largest * chebyshev.size * kUp + kTiny);
 }
 
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper) {

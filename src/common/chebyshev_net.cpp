@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "common/cubic_source.hpp"
+#include "common/chebyshev_net.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "common/cubic_source.cpp"
+#define HWY_TARGET_INCLUDE "common/chebyshev_net.cpp"
 #include <hwy/foreach_target.h>
 
 #include "common/simd_rows-inl.hpp"
@@ -164,7 +164,7 @@ const Powers& powers(double origin, double half, int degree, Powers* scratch) {
 
 }  // namespace
 
-void expand(const Tile& tile, const Box<2>& box, CubicSource* source) {
+void expand(const Tile& tile, const Box<2>& box, ChebyshevNet* net) {
   Point<2> part;
   const double* m[2];
   Powers scratch[2];
@@ -176,15 +176,15 @@ void expand(const Tile& tile, const Box<2>& box, CubicSource* source) {
   }
   HighSums sums;
   HWY_DYNAMIC_DISPATCH(expand_powers)
-  (tile.a[0].data(), tile.degree, m[0], m[1], source->c[0].data(), &sums);
+  (tile.a[0].data(), tile.degree, m[0], m[1], net->c[0].data(), &sums);
   // All coefficients together are off by less than 110 u tile.sum.
   const double rounding = tile.sum * 0x1p-45 + kTiny;
-  source->rows_axis = 1;
-  source->size = sums.size * kUp;
-  source->left_out = sums.left_out * kUp;
-  source->radius = (source->left_out + tile.error + rounding) * kUp;
-  source->slope_radius = {(sums.lane_squares + tile.slope_error * part[0] + 225 * rounding) * kUp,
-                          (sums.row_squares + tile.slope_error * part[1] + 225 * rounding) * kUp};
+  net->rows_axis = 1;
+  net->size = sums.size * kUp;
+  net->left_out = sums.left_out * kUp;
+  net->radius = (net->left_out + tile.error + rounding) * kUp;
+  net->slope_radius = {(sums.lane_squares + tile.slope_error * part[0] + 225 * rounding) * kUp,
+                       (sums.row_squares + tile.slope_error * part[1] + 225 * rounding) * kUp};
 }
 
 }  // namespace encase
