@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "2d/least_cells.hpp"
 #include "encase/curves_file.hpp"
 #include "tables.hpp"
 

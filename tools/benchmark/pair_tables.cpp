@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "2d/least_cells.hpp"
 #include "published.hpp"
 #include "tables.hpp"
 
