@@ -13,16 +13,11 @@
 #define HWY_TARGET_INCLUDE "common/patch.cpp"
 #include <hwy/foreach_target.h>
 
-#include "common/simd_rows-inl.hpp"
+#include "common/net_rows-inl.hpp"
 
 #ifndef ENCASE_PATCH_SHARED
 #define ENCASE_PATCH_SHARED
 namespace encase {
-
-/// The least and greatest numbers among the coefficients of a net.
-struct Extremes {
-  double lo, hi;
-};
 
 /// The Bernstein coefficients in degree count - 1 of Chebyshev's polynomials: column k has those of
 /// T_k.
@@ -37,25 +32,6 @@ struct ChebyshevTable {
 
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
-
-/// The least and greatest of several rows.
-struct Extent {
-  Row lo, hi;
-  HWY_INLINE explicit Extent(const Row& first) : lo(first), hi(first) {}
-  HWY_INLINE Extent(const Row& low, const Row& high) : lo(low), hi(high) {}
-  HWY_INLINE void add(const Row& row) {
-    lo = least(lo, row);
-    hi = greatest(hi, row);
-  }
-  /// Forgets all but the first lanes.
-  HWY_INLINE void keep_lanes(int count) {
-    lo = first_lanes(lo, Row::all(HUGE_VAL), count);
-    hi = first_lanes(hi, Row::all(-HUGE_VAL), count);
-  }
-  HWY_INLINE Extremes extremes() const { return {least_lane(lo), greatest_lane(hi)}; }
-};
-
-using Net = std::array<std::array<double, 8>, 8>;
 
 /// Chebyshev coefficients across rows, turned into Bernstein ones: even polynomials have symmetric
 /// ones.
@@ -74,108 +50,20 @@ HWY_INLINE void to_bernstein(const ChebyshevTable& table, Row* c) {
 
 /// The Bernstein net of a Chebyshev net, transposed. Returns its extremes.
 template <int N>
-HWY_INLINE Extremes bernstein_net(const double* from, const ChebyshevTable& table, Net* net) {
+HWY_INLINE NetExtremes bernstein_net(const double* from, const ChebyshevTable& table,
+                                     NetRows* net) {
   Row rows[8];
   for (int i = 0; i < N; ++i) rows[i] = Row::load(from + 8 * i);
   to_bernstein<N>(table, rows);
   for (int i = N; i < 8; ++i) rows[i] = rows[N - 1];
   transpose(rows);
   to_bernstein<N>(table, rows);
-  Extent extent(rows[0]);
+  RowExtent extent(rows[0]);
   for (int j = 0; j < N; ++j) {
     rows[j].store((*net)[j].data());
     extent.add(rows[j]);
   }
   return extent.extremes();
-}
-
-HWY_INLINE bool beyond(const Extremes& e, double radius) { return e.lo > radius || e.hi < -radius; }
-
-/// The extremes of one part of several rows.
-struct PartExtent {
-  Vector lo, hi;
-  HWY_INLINE void add(Vector v) {
-    lo = hn::Min(lo, v);
-    hi = hn::Max(hi, v);
-  }
-  HWY_INLINE Extremes extremes() const {
-    return {hn::GetLane(hn::MinOfLanes(Lanes(), lo)), hn::GetLane(hn::MaxOfLanes(Lanes(), hi))};
-  }
-};
-
-/// De Casteljau's algorithm at 1/2 across the rows, for one part of them, which fits into
-/// registers: sums of two, scaled at the end (powers of two change no rounding).
-template <int N>
-HWY_INLINE void halve_part(Vector* t, Vector* lower, Vector* upper, PartExtent* of_lower,
-                           PartExtent* of_upper) {
-  lower[0] = t[0];
-  upper[N - 1] = t[N - 1];
-  of_lower->add(lower[0]);
-  of_upper->add(upper[N - 1]);
-  double scale = 1;
-  for (int r = 1; r < N; ++r) {
-    for (int j = 0; j < N - r; ++j) t[j] = hn::Add(t[j], t[j + 1]);
-    scale *= 0.5;
-    const Vector s = hn::Set(Lanes(), scale);
-    lower[r] = hn::Mul(t[0], s);
-    upper[N - 1 - r] = hn::Mul(t[N - 1 - r], s);
-    of_lower->add(lower[r]);
-    of_upper->add(upper[N - 1 - r]);
-  }
-}
-
-/// Transposes a square of kLanes vectors.
-HWY_INLINE void transpose_square(const Vector* from, Vector* to) {
-#if HWY_MAX_BYTES == 64
-  Row rows[8];
-  for (int i = 0; i < 8; ++i) rows[i].part[0] = from[i];
-  transpose(rows);
-  for (int i = 0; i < 8; ++i) to[i] = rows[i].part[0];
-#elif HWY_MAX_BYTES == 32
-  const Lanes d;
-  const Vector even[2] = {hn::InterleaveLower(d, from[0], from[1]),
-                          hn::InterleaveLower(d, from[2], from[3])};
-  const Vector odd[2] = {hn::InterleaveUpper(d, from[0], from[1]),
-                         hn::InterleaveUpper(d, from[2], from[3])};
-  to[0] = hn::ConcatLowerLower(d, even[1], even[0]);
-  to[1] = hn::ConcatLowerLower(d, odd[1], odd[0]);
-  to[2] = hn::ConcatUpperUpper(d, even[1], even[0]);
-  to[3] = hn::ConcatUpperUpper(d, odd[1], odd[0]);
-#elif HWY_TARGET == HWY_SCALAR
-  to[0] = from[0];
-#else
-  const Vector upper = hn::InterleaveUpper(Lanes(), from[0], from[1]);
-  to[0] = hn::InterleaveLower(Lanes(), from[0], from[1]);
-  to[1] = upper;
-#endif
-}
-
-/// Part k of the rows of a net, or of its transpose.
-template <int N>
-HWY_INLINE void load_part(const Net& net, int k, bool transposed, Vector* part) {
-  if (!transposed) {
-    for (int i = 0; i < N; ++i) part[i] = hn::Load(Lanes(), net[i].data() + k * kLanes);
-    return;
-  }
-  for (int i = 0; i < 8; i += kLanes) {
-    Vector square[kLanes];
-    for (int j = 0; j < kLanes; ++j)
-      square[j] = hn::Load(Lanes(), net[std::min(k * kLanes + j, N - 1)].data() + i);
-    transpose_square(square, part + i);
-  }
-}
-
-/// Stores part k of N rows in that many rows of their transpose; lanes from N on repeat the last
-/// one.
-template <int N>
-HWY_INLINE void store_part_transposed(Vector* part, int k, Net* to) {
-  for (int i = N; i < 8; ++i) part[i] = part[N - 1];
-  for (int i = 0; i < 8; i += kLanes) {
-    Vector square[kLanes];
-    transpose_square(part + i, square);
-    for (int j = 0; j < kLanes && k * kLanes + j < N; ++j)
-      hn::Store(square[j], Lanes(), (*to)[k * kLanes + j].data() + i);
-  }
 }
 
 /// The partial derivatives at the corners of the box, without the factor degree / 2: across rows
@@ -184,7 +72,7 @@ struct CornerSlopes {
   std::array<double, 4> rows, lanes;
 };
 template <int N>
-HWY_INLINE CornerSlopes corner_slopes(const Net& net) {
+HWY_INLINE CornerSlopes corner_slopes(const NetRows& net) {
   constexpr int n = N - 1;
   const auto &first = net[0], &second = net[1], &last_but_one = net[n - 1], &last = net[n];
   return {{second[0] - first[0], second[n] - first[n], last[0] - last_but_one[0],
@@ -244,7 +132,7 @@ struct RaisingWeights {
 /// The least coefficient of alpha times the derivative across rows and beta times that across
 /// lanes, without the factor degree / 2, both raised to the degree of the net.
 template <int N>
-HWY_INLINE double least_combined_slope(const Net& net, double alpha, double beta) {
+HWY_INLINE double least_combined_slope(const NetRows& net, double alpha, double beta) {
   static constexpr RaisingWeights<N> weights;
   const double* const memory = net[0].data();
   HWY_ALIGN double first[16], last[16];  // the rows that have no neighbour in memory on one side
@@ -275,12 +163,12 @@ HWY_INLINE double least_combined_slope(const Net& net, double alpha, double beta
 /// its gradients at the corners suggest. `radius`: of the differences, across rows and lanes,
 /// rounding included. `variation`: how much they change, if not.
 template <int N>
-HWY_INLINE bool excludes(const Net& net, double magnitude, const double* radius,
+HWY_INLINE bool excludes(const NetRows& net, double magnitude, const double* radius,
                          double* variation) {
   const CornerSlopes slopes = corner_slopes<N>(net);
   const double* const memory = net[0].data();
   if (agree(slopes.rows)) {
-    Extent extent(Row::load(memory + 8) - Row::load(memory));
+    RowExtent extent(Row::load(memory + 8) - Row::load(memory));
     for (int i = 1; i + 1 < N; ++i)
       extent.add(Row::load(memory + 8 * (i + 1)) - Row::load(memory + 8 * i));
     if (beyond(extent.extremes(), radius[0])) return true;
@@ -302,7 +190,7 @@ HWY_INLINE bool excludes(const Net& net, double magnitude, const double* radius,
 
 /// The extremes of second differences: twice across rows, twice across lanes, mixed.
 template <int N>
-HWY_INLINE void second_differences(const Net& net, Extremes* result) {
+HWY_INLINE void second_differences(const NetRows& net, NetExtremes* result) {
   HWY_ALIGN double memory[8 * N + 16];
   Row rows[N];
   for (int i = 0; i < N; ++i) {
@@ -310,12 +198,12 @@ HWY_INLINE void second_differences(const Net& net, Extremes* result) {
     rows[i].store(memory + 8 * i);
   }
   Row::all(0).store(memory + 8 * N);
-  Extent twice_rows((rows[2] - rows[1]) - (rows[1] - rows[0]));
+  RowExtent twice_rows((rows[2] - rows[1]) - (rows[1] - rows[0]));
   for (int i = 1; i + 2 < N; ++i)
     twice_rows.add((rows[i + 2] - rows[i + 1]) - (rows[i + 1] - rows[i]));
   result[0] = twice_rows.extremes();
   Row slope[N];
-  Extent twice_lanes(Row::all(HUGE_VAL), Row::all(-HUGE_VAL));
+  RowExtent twice_lanes;
   for (int i = 0; i < N; ++i) {
     const Row next = Row::load_unaligned(memory + 8 * i + 1);
     slope[i] = next - rows[i];
@@ -323,63 +211,26 @@ HWY_INLINE void second_differences(const Net& net, Extremes* result) {
   }
   twice_lanes.keep_lanes(N - 2);
   result[1] = twice_lanes.extremes();
-  Extent mixed(slope[1] - slope[0]);
+  RowExtent mixed(slope[1] - slope[0]);
   for (int i = 1; i + 1 < N; ++i) mixed.add(slope[i + 1] - slope[i]);
   mixed.keep_lanes(N - 1);
   result[2] = mixed.extremes();
 }
 
-// One function for every size of net.
-
-template <class Run>
-HWY_INLINE void with_count(int count, Run run) {
-  switch (count) {
-    case 3:
-      return run.template operator()<3>();
-    case 4:
-      return run.template operator()<4>();
-    case 5:
-      return run.template operator()<5>();
-    case 6:
-      return run.template operator()<6>();
-    case 7:
-      return run.template operator()<7>();
-    default:
-      return run.template operator()<8>();
-  }
-}
-
-Extremes bernstein_patch(const double* from, const ChebyshevTable& table, Net* net) {
-  Extremes result{};
+NetExtremes bernstein_patch(const double* from, const ChebyshevTable& table, NetRows* net) {
+  NetExtremes result{};
   with_count(table.count, [&]<int N>() HWY_ATTR { result = bernstein_net<N>(from, table, net); });
   return result;
 }
 
-void halve_patch(const Net& net, int count, bool along_lanes, double radius, Net* lower, Net* upper,
-                 Extremes* extremes) {
+void halve_patch(const NetRows& net, int count, bool along_lanes, double radius, NetRows* lower,
+                 NetRows* upper, NetExtremes* extremes) {
   with_count(count, [&]<int N>() HWY_ATTR {
-    constexpr int kUsed = (N + kLanes - 1) / kLanes;  // all others repeat a lane
-    Vector low[kUsed][8], high[kUsed][8];
-    PartExtent of_low, of_high;
-    for (int k = 0; k < kUsed; ++k) {
-      Vector part[8];
-      load_part<N>(net, k, along_lanes, part);
-      if (k == 0) {
-        of_low = {part[0], part[0]};
-        of_high = {part[N - 1], part[N - 1]};
-      }
-      halve_part<N>(part, low[k], high[k], &of_low, &of_high);
-    }
-    extremes[0] = of_low.extremes();
-    extremes[1] = of_high.extremes();
-    if (!beyond(extremes[0], radius))
-      for (int k = 0; k < kUsed; ++k) store_part_transposed<N>(low[k], k, lower);
-    if (!beyond(extremes[1], radius))
-      for (int k = 0; k < kUsed; ++k) store_part_transposed<N>(high[k], k, upper);
+    halve_net<N>(net, along_lanes, radius, lower, upper, extremes);
   });
 }
 
-bool test_gradient(const Net& net, int count, double magnitude, const double* radius,
+bool test_gradient(const NetRows& net, int count, double magnitude, const double* radius,
                    double* variation) {
   bool result = false;
   with_count(count,
@@ -387,7 +238,7 @@ bool test_gradient(const Net& net, int count, double magnitude, const double* ra
   return result;
 }
 
-void second_derivatives(const Net& net, int count, Extremes* result) {
+void second_derivatives(const NetRows& net, int count, NetExtremes* result) {
   with_count(count, [&]<int N>() HWY_ATTR { second_differences<N>(net, result); });
 }
 
@@ -452,14 +303,14 @@ void add_rounding(Patch* patch, double change) {
   for (double& r : patch->bend_radius) r = (r + n * n * change) * kUp;
 }
 
-std::optional<Sign> sign_of_extremes(const Extremes& e, double radius) {
+std::optional<Sign> sign_of_extremes(const NetExtremes& e, double radius) {
   if (e.lo > radius) return Sign::Positive;
   if (e.hi < -radius) return Sign::Negative;
   return std::nullopt;
 }
 
 /// factor * extremes, widened by `radius` and the roundings.
-Extremes widened(const Extremes& e, double factor, double radius) {
+NetExtremes widened(const NetExtremes& e, double factor, double radius) {
   const double lo = e.lo * factor, hi = e.hi * factor;
   const double slack = radius * kUp + 0x1p-50 * std::max(std::fabs(lo), std::fabs(hi)) + kTiny;
   return {lo - slack, hi + slack};
@@ -487,7 +338,7 @@ void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
   ChebyshevNet chebyshev;
   expand(tile, box, &chebyshev);
   const ChebyshevTable& table = chebyshev_table(count);
-  const Extremes extremes =
+  const NetExtremes extremes =
       HWY_DYNAMIC_DISPATCH(bernstein_patch)(chebyshev.c[0].data(), table, &patch->b);
   patch->count = count;
   patch->rows_axis = 1 - chebyshev.rows_axis;
@@ -516,7 +367,7 @@ void expand(const Tile& tile, const Box<2>& box, int count, Patch* patch) {
 }
 
 void halve(const Patch& patch, int axis, bool whole, Patch* lower, Patch* upper) {
-  Extremes extremes[2];
+  NetExtremes extremes[2];
   // Each of count - 1 averages rounds once, relative to the largest coefficient.
   const double change = 1.01 * patch.count * kUnit * patch.magnitude() + kTiny;
   const double n = patch.count - 1, radius = (patch.radius + change) * kUp;
@@ -548,13 +399,13 @@ namespace {
 
 /// f keeps a sign and no point is a local maximum of |f|.
 bool no_extremum(const Patch& patch, Sign sign) {
-  Extremes second[3];
+  NetExtremes second[3];
   HWY_DYNAMIC_DISPATCH(second_derivatives)(patch.b, patch.count, second);
   const double n = patch.count - 1, twice = 0.25 * n * (n - 1), mixed = 0.25 * n * n;
   const double rounding = 3 * kUnit * 4 * patch.magnitude();
-  const Extremes rr = widened(second[0], twice, patch.bend_radius[0] + twice * rounding);
-  const Extremes ll = widened(second[1], twice, patch.bend_radius[1] + twice * rounding);
-  const Extremes rl = widened(second[2], mixed, patch.bend_radius[2] + mixed * rounding);
+  const NetExtremes rr = widened(second[0], twice, patch.bend_radius[0] + twice * rounding);
+  const NetExtremes ll = widened(second[1], twice, patch.bend_radius[1] + twice * rounding);
+  const NetExtremes rl = widened(second[2], mixed, patch.bend_radius[2] + mixed * rounding);
   if (sign_of_extremes(rr, 0) == sign || sign_of_extremes(ll, 0) == sign) return true;
   const double product =
       std::max(std::max(rr.lo * ll.lo, rr.lo * ll.hi), std::max(rr.hi * ll.lo, rr.hi * ll.hi));

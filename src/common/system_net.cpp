@@ -52,62 +52,31 @@ HWY_INLINE NetExtremes restrict_net(const NetRows& from, const double (*cut)[2],
   return extent.extremes();
 }
 
-/// Both halves of a net across its rows, by de Casteljau's algorithm: sums of two, scaled at the
-/// end (powers of two change no rounding).
-template <int N>
-HWY_INLINE void halve_rows(const Row* from, Row* lower, Row* upper, RowExtent* low,
-                           RowExtent* high) {
-  for (int p = 0; p < kParts; ++p) {
-    Vector t[N];
-    for (int i = 0; i < N; ++i) t[i] = from[i].part[p];
-    Vector low_least = t[0], low_most = t[0], high_least = t[N - 1], high_most = t[N - 1];
-    lower[0].part[p] = t[0];
-    upper[N - 1].part[p] = t[N - 1];
-    double scale = 1;
-#pragma GCC unroll 8
-    for (int r = 1; r < N; ++r) {
-#pragma GCC unroll 8
-      for (int j = 0; j < N - r; ++j) t[j] = hn::Add(t[j], t[j + 1]);
-      scale *= 0.5;
-      const Vector s = hn::Set(Lanes(), scale);
-      const Vector a = hn::Mul(t[0], s), b = hn::Mul(t[N - 1 - r], s);
-      lower[r].part[p] = a;
-      upper[N - 1 - r].part[p] = b;
-      low_least = hn::Min(low_least, a);
-      low_most = hn::Max(low_most, a);
-      high_least = hn::Min(high_least, b);
-      high_most = hn::Max(high_most, b);
-    }
-    low->lo.part[p] = low_least;
-    low->hi.part[p] = low_most;
-    high->lo.part[p] = high_least;
-    high->hi.part[p] = high_most;
-  }
-}
-
 /// The quarters of a net, transposed, but of those in halves across its rows that are `empty`; of
 /// a half on which it keeps a sign beyond the radius it is set. Quarter k + 2 m: half k of the
 /// rows, half m of the lanes.
 template <int N>
 HWY_INLINE void quarter_net(const NetRows& from, double radius, bool* empty, NetRows* const* to,
                             NetExtremes* extremes) {
-  Row rows[8], halves[2][8];
-  for (int i = 0; i < N; ++i) rows[i] = Row::load(from[i].data());
-  RowExtent extent[2];
-  halve_rows<N>(rows, halves[0], halves[1], &extent[0], &extent[1]);
+  alignas(64) NetRows halves[2];
+  NetExtremes of_halves[2];
+  halve_net<N>(from, false, radius, &halves[0], &halves[1], of_halves);
   for (int k = 0; k < 2; ++k) {
+    empty[k] = empty[k] || beyond(of_halves[k], radius);
     if (empty[k]) continue;
-    empty[k] = beyond(extent[k].extremes(), radius);
-    if (empty[k]) continue;
-    for (int i = N; i < 8; ++i) halves[k][i] = halves[k][N - 1];
-    transpose(halves[k]);
-    Row quarters[2][8];
-    RowExtent of_quarter[2];
-    halve_rows<N>(halves[k], quarters[0], quarters[1], &of_quarter[0], &of_quarter[1]);
-    for (int m = 0; m < 2; ++m) {
-      for (int i = 0; i < N; ++i) quarters[m][i].store((*to[k + 2 * m])[i].data());
-      extremes[k + 2 * m] = of_quarter[m].extremes();
+    NetRows &lower = *to[k], &upper = *to[k + 2];
+    PartExtent of_lower, of_upper;
+    for (int p = 0; p < 8; p += kLanes) {
+      Vector part[8], low[8], high[8];
+      for (int i = 0; i < N; ++i) part[i] = hn::Load(Lanes(), halves[k][i].data() + p);
+      halve_part<N>(part, low, high, &of_lower, &of_upper);
+      for (int i = 0; i < N; ++i) {
+        hn::Store(low[i], Lanes(), lower[i].data() + p);
+        hn::Store(high[i], Lanes(), upper[i].data() + p);
+      }
     }
+    extremes[k] = of_lower.extremes();
+    extremes[k + 2] = of_upper.extremes();
   }
 }
 

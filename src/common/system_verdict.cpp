@@ -71,27 +71,18 @@ HWY_INLINE void bound_rests(const NetRows& f, const NetRows& g, const Matrix<2>&
   constexpr double n = N - 1;
   HWY_ALIGN double along[8];
   for (int i = 0; i < 8; ++i) along[i] = 2 / n * (i < N ? i : N - 1) - 1;
-  RowExtent all[2];
+  PartExtent all[2];
   const Vector y00 = hn::Set(Lanes(), y[0][0]), y01 = hn::Set(Lanes(), y[0][1]),
                y10 = hn::Set(Lanes(), y[1][0]), y11 = hn::Set(Lanes(), y[1][1]);
-  for (int p = 0; p < kParts; ++p) {
-    const Vector lanes = hn::Load(Lanes(), along + p * kLanes);
-    const Vector most = hn::Set(Lanes(), HUGE_VAL), least = hn::Set(Lanes(), -HUGE_VAL);
-    Vector lo[2] = {most, most}, hi[2] = {least, least};
+  for (int k = 0; k < kUsedParts<N>; ++k) {
+    const Vector lanes = hn::Load(Lanes(), along + k * kLanes);
     for (int i = 0; i < N; ++i) {
-      const Vector a = hn::Load(Lanes(), f[i].data() + p * kLanes),
-                   b = hn::Load(Lanes(), g[i].data() + p * kLanes);
-      const Vector r0 = hn::Sub(hn::Add(hn::Mul(y00, a), hn::Mul(y01, b)),
-                                hn::Set(Lanes(), along[i])),
-                   r1 = hn::Sub(hn::Add(hn::Mul(y10, a), hn::Mul(y11, b)), lanes);
-      lo[0] = hn::Min(lo[0], r0);
-      hi[0] = hn::Max(hi[0], r0);
-      lo[1] = hn::Min(lo[1], r1);
-      hi[1] = hn::Max(hi[1], r1);
-    }
-    for (int k = 0; k < 2; ++k) {
-      all[k].lo.part[p] = lo[k];
-      all[k].hi.part[p] = hi[k];
+      const Vector a = hn::Load(Lanes(), f[i].data() + k * kLanes),
+                   b = hn::Load(Lanes(), g[i].data() + k * kLanes);
+      const Vector c0 = hn::Add(hn::Mul(y00, a), hn::Mul(y01, b)),
+                   c1 = hn::Add(hn::Mul(y10, a), hn::Mul(y11, b));
+      all[0].add(hn::Sub(c0, hn::Set(Lanes(), along[i])));
+      all[1].add(hn::Sub(c1, lanes));
     }
   }
   for (int k = 0; k < 2; ++k) rest[k] = all[k].extremes();
