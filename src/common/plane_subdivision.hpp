@@ -331,6 +331,7 @@ inline int PlaneSubdivision<1>::first_axis(const Node& node) {
 }
 template <>
 inline int PlaneSubdivision<2>::first_axis(const Node& node) {
+  // Across the rows of the nets, unless the halves would still be wider that way.
   const double x = node.box.width(0), y = node.box.width(1);
   const bool either = x < 1.9 * y && y < 1.9 * x;
   return either && node.has_net ? node.net->of[0].rows_axis : cover::kSplitX - wider_axis(node.box);
