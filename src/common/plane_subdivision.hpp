@@ -484,8 +484,8 @@ inline bool is_settled(const TiledFunction& f, const Patch& patch) {
   return !f.polynomial().is_polynomial() && patch.sign().has_value();
 }
 
-/// Whether a net on the box is not worth trying. (Nets tell by themselves how far they are; of high
-/// degrees they are tried on every other level.)
+/// Whether a patch on a box that is halved is not worth trying. (Patches tell by themselves how far
+/// they are; of high degrees they are tried on every other level.)
 inline bool hopeless(const Tile& tile, int level) { return tile.degree > 7 && level % 2 == 1; }
 
 /// Whether a smaller box should have the first net.
@@ -550,7 +550,7 @@ bool PlaneSubdivision<N>::make_patch(const Node& node, int i, Patch* patch, cons
     const double part = std::max(parts[0], parts[1]);
     if (part > 1.01) return false;
     const bool within = holds(*tile, node.box);
-    if (!*used && hopeless(*tile, node.level)) return false;
+    if (N == 1 && !*used && hopeless(*tile, node.level)) return false;
     if (within) {
       make(*tile);
       if (!*used && too_large<N>(*patch, node.level)) return false;
