@@ -127,6 +127,7 @@ void restrict_to(const SystemNet& from, const Part& part, SystemNet* to) {
     cut[i][0] = lo / hi;
     cut[i][1] = hi;
   }
+  const bool is_part = cut[0][1] > 0 && cut[1][1] > 0;
   const NetRows* const nets[2] = {&from.of[0].b, &from.of[1].b};
   NetRows* const results[2] = {&to->of[0].b, &to->of[1].b};
   NetExtremes extremes[2];
@@ -134,7 +135,8 @@ void restrict_to(const SystemNet& from, const Part& part, SystemNet* to) {
   for (int k = 0; k < 2; ++k) {
     const Patch& of = from.of[k];
     Patch& patch = to->of[k];
-    const double change = 0x1p-45 * of.magnitude() + kTiny, n = of.count - 1;
+    // (Nothing is known on a part too narrow to have a place of its own.)
+    const double change = is_part ? 0x1p-45 * of.magnitude() + kTiny : HUGE_VAL, n = of.count - 1;
     patch.count = of.count;
     patch.rows_axis = axis[1];
     patch.lo = extremes[k].lo;

@@ -235,6 +235,20 @@ TEST(SystemNet, OfTilesThatClaimNothingProvesNothing) {
   EXPECT_FALSE(verdict.contracts);
 }
 
+TEST(SystemNet, OnAPartWithoutWidthProvesNothing) {
+  const FilteredFunction<2> f(written::polynomial<2>("x + y + 5")),
+      g(written::polynomial<2>("x - y + 7"));
+  Kernel kernel;
+  const Box<2> box{{-1, -1}, {1, 1}};
+  TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
+  const SystemNet net = on_box(of_f.at({0, 0}), of_g.at({0, 0}), box);
+  EXPECT_TRUE(net.excluded());
+  SystemNet part;
+  restrict_to(net, {{-1, 0}, {0x1p-60, 1}}, &part);
+  EXPECT_FALSE(part.excluded());
+  for (const Patch& patch : part.of) EXPECT_FALSE(std::isfinite(patch.radius));
+}
+
 TEST(SystemNet, VariationIsAlongTheAxes) {
   const FilteredFunction<2> f(written::polynomial<2>("x + 3 y")),
       g(written::polynomial<2>("x/2 + y"));
