@@ -10,40 +10,55 @@
 
 #include "common/net_rows-inl.hpp"
 
+#ifndef ENCASE_SYSTEM_NET_SHARED
+#define ENCASE_SYSTEM_NET_SHARED
+namespace encase {
+
+/// Where a part of [0,1] begins and ends, for de Casteljau's algorithm at the end and then, in
+/// [0,end], at the beginning. Sums in place of averages: w_1 a + w_2 b is w_2 times a w_1 / w_2 + b.
+struct Cut {
+  double at_end, at_beginning;                     ///< the weights' quotients
+  std::array<double, 8> end_scale, beginning_scale;  ///< what r stages are to be multiplied by
+};
+
+}  // namespace encase
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
-/// De Casteljau's algorithm across rows at two points: what lies between them. The first one is
-/// given as a share of the way to the second one.
+/// De Casteljau's algorithm across rows at two points: what lies between them.
 template <int N>
-HWY_INLINE void cut_rows(double from, double to, Row* rows) {
+HWY_INLINE void cut_rows(const Cut& cut, Row* rows) {
+  const Vector at_end = hn::Set(Lanes(), cut.at_end),
+               at_beginning = hn::Set(Lanes(), cut.at_beginning);
   for (int p = 0; p < kParts; ++p) {
     Vector c[N];
     for (int i = 0; i < N; ++i) c[i] = rows[i].part[p];
-    const Vector t = hn::Set(Lanes(), to), s = hn::Set(Lanes(), 1 - to);
 #pragma GCC unroll 8
     for (int r = 1; r < N; ++r)
 #pragma GCC unroll 8
-      for (int j = N - 1; j >= r; --j) c[j] = hn::Add(hn::Mul(c[j - 1], s), hn::Mul(c[j], t));
-    const Vector u = hn::Set(Lanes(), from), v = hn::Set(Lanes(), 1 - from);
+      for (int j = N - 1; j >= r; --j) c[j] = hn::Add(hn::Mul(c[j - 1], at_end), c[j]);
+#pragma GCC unroll 8
+    for (int r = 1; r < N; ++r) c[r] = hn::Mul(c[r], hn::Set(Lanes(), cut.end_scale[r]));
 #pragma GCC unroll 8
     for (int r = 1; r < N; ++r)
 #pragma GCC unroll 8
-      for (int j = 0; j < N - r; ++j) c[j] = hn::Add(hn::Mul(c[j], v), hn::Mul(c[j + 1], u));
-    for (int i = 0; i < N; ++i) rows[i].part[p] = c[i];
+      for (int j = 0; j < N - r; ++j) c[j] = hn::Add(c[j], hn::Mul(c[j + 1], at_beginning));
+    for (int i = 0; i < N; ++i)
+      rows[i].part[p] = hn::Mul(c[i], hn::Set(Lanes(), cut.beginning_scale[N - 1 - i]));
   }
 }
 
-/// A net on a part of its box, transposed; `cut` holds where it begins and ends for the rows, then
-/// the lanes.
+/// A net on a part of its box, transposed; the cuts are those across the rows, then the lanes.
 template <int N>
-HWY_INLINE NetExtremes restrict_net(const NetRows& from, const double (*cut)[2], NetRows* to) {
+HWY_INLINE NetExtremes restrict_net(const NetRows& from, const Cut* cut, NetRows* to) {
   Row rows[8];
   for (int i = 0; i < N; ++i) rows[i] = Row::load(from[i].data());
-  cut_rows<N>(cut[0][0], cut[0][1], rows);
+  cut_rows<N>(cut[0], rows);
   for (int i = N; i < 8; ++i) rows[i] = rows[N - 1];
   transpose(rows);
-  cut_rows<N>(cut[1][0], cut[1][1], rows);
+  cut_rows<N>(cut[1], rows);
   RowExtent extent;
   for (int i = 0; i < N; ++i) {
     rows[i].store((*to)[i].data());
@@ -80,8 +95,8 @@ HWY_INLINE void quarter_net(const NetRows& from, double radius, bool* empty, Net
   }
 }
 
-void restrict_nets(int count, const NetRows* const* from, const double (*cut)[2],
-                   NetRows* const* to, NetExtremes* extremes) {
+void restrict_nets(int count, const NetRows* const* from, const Cut* cut, NetRows* const* to,
+                   NetExtremes* extremes) {
   with_count(count, [&]<int N>() HWY_ATTR {
     for (int k = 0; k < 2; ++k) extremes[k] = restrict_net<N>(*from[k], cut, to[k]);
   });
@@ -105,6 +120,22 @@ HWY_EXPORT(quarter_nets);
 constexpr double kUnit = 0x1p-53;
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the few roundings of the sums it multiplies
 constexpr double kTiny = 0x1p-1000;  // more than what gradual underflow can lose
+// Of parts; and the largest coefficients of which seven stages at such an end do not overflow.
+constexpr double kNarrowest = 0x1p-40, kLargest = 0x1p600;
+
+/// How to cut out the part origin +- half of [-1,1]; false if it is too narrow for that.
+bool find_cut(double origin, double half, Cut* cut) {
+  const double end = 0.5 * (1 + (origin + half)), beginning = 0.5 * (1 + (origin - half)) / end,
+               rest = 1 - beginning;
+  cut->at_end = (1 - end) / end;
+  cut->at_beginning = beginning / rest;
+  cut->end_scale[0] = cut->beginning_scale[0] = 1;
+  for (std::size_t r = 1; r < 8; ++r) {
+    cut->end_scale[r] = cut->end_scale[r - 1] * end;
+    cut->beginning_scale[r] = cut->beginning_scale[r - 1] * rest;
+  }
+  return end > kNarrowest && rest > kNarrowest;
+}
 
 }  // namespace
 
@@ -120,14 +151,10 @@ Part part_of(const Chart& chart, const Box<2>& box) {
 
 void restrict_to(const SystemNet& from, const Part& part, SystemNet* to) {
   const std::array<int, 2> axis{from.of[0].rows_axis, 1 - from.of[0].rows_axis};
-  double cut[2][2];
-  for (int i = 0; i < 2; ++i) {
-    const double lo = 0.5 * (1 + (part.origin[axis[i]] - part.half[axis[i]]));
-    const double hi = 0.5 * (1 + (part.origin[axis[i]] + part.half[axis[i]]));
-    cut[i][0] = lo / hi;
-    cut[i][1] = hi;
-  }
-  const bool is_part = cut[0][1] > 0 && cut[1][1] > 0;
+  Cut cut[2];
+  bool is_part = true;
+  for (int i = 0; i < 2; ++i)
+    is_part = find_cut(part.origin[axis[i]], part.half[axis[i]], &cut[i]) && is_part;
   const NetRows* const nets[2] = {&from.of[0].b, &from.of[1].b};
   NetRows* const results[2] = {&to->of[0].b, &to->of[1].b};
   NetExtremes extremes[2];
@@ -135,8 +162,10 @@ void restrict_to(const SystemNet& from, const Part& part, SystemNet* to) {
   for (int k = 0; k < 2; ++k) {
     const Patch& of = from.of[k];
     Patch& patch = to->of[k];
-    // (Nothing is known on a part too narrow to have a place of its own.)
-    const double change = is_part ? 0x1p-45 * of.magnitude() + kTiny : HUGE_VAL, n = of.count - 1;
+    // (Nothing is known on a part that is too narrow.)
+    const double change = is_part && of.magnitude() < kLargest ? 0x1p-45 * of.magnitude() + kTiny
+                                                               : HUGE_VAL,
+                 n = of.count - 1;
     patch.count = of.count;
     patch.rows_axis = axis[1];
     patch.lo = extremes[k].lo;

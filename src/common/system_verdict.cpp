@@ -170,7 +170,7 @@ HWY_INLINE void precondition_net(const NetRows& f, const NetRows& g, const doubl
   if (!result->regular) return;
   bound_rests<N>(f, g, y, result->rest.data());
   // Slopes close to those of the coordinates would keep the rests small.
-  constexpr double kMost = 2.5;
+  constexpr double kMost = 1;
   result->linear = result->rest[0].hi - result->rest[0].lo < kMost &&
                    result->rest[1].hi - result->rest[1].lo < kMost;
   if (result->linear) bound_slopes<N>(f, g, y, &result->slope);
