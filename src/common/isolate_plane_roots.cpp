@@ -15,6 +15,7 @@ namespace {
 /// What the search asks of a contraction: a checker that recomputes it on a somewhat different box
 /// has room, and radii are at most some times the residual.
 constexpr double kQuality = 0.8;
+constexpr int kQuarter = PlaneSubdivision<2>::kQuarter;
 constexpr double kUp = 1 + 0x1p-40;
 constexpr int kCloserLooks = 3;
 constexpr double kSmallPart = 0.3;  // of a box's area
@@ -47,13 +48,13 @@ class PlaneRoots {
 
   using Tiles = std::array<const Tile*, 2>;
 
-  /// The number of the root that a box can contain which holds at most one, if there is one near.
-  std::optional<int> near(const Tiles& node_tiles, const Box<2>& leaf,
+  /// The number of the root that a box can contain which holds at most one, or kQuarter.
+  int near(const Tiles& node_tiles, const Box<2>& leaf,
                           const SystemVerdict& verdict);
 
-  /// What becomes of a box on which the patches are given: the token that settles it, or nothing
-  /// and the part (in the box's coordinates) that holds all zeros.
-  std::optional<int> settle(const PlaneSubdivision<2>::Node& node, Box<2>* part);
+  /// What becomes of a box on which the nets are given: the token that settles it, or kQuarter and
+  /// the part (in the box's coordinates) that holds all zeros.
+  int settle(const PlaneSubdivision<2>::Node& node, Box<2>* part);
 
  private:
   struct Step {
@@ -343,16 +344,15 @@ std::optional<Box<2>> PlaneRoots::enclose(const Tiles& tiles, const Box<2>& arou
   return best;
 }
 
-std::optional<int> PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf,
-                                    const SystemVerdict& verdict) {
+int PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf, const SystemVerdict& verdict) {
   Tiles tiles = node_tiles;
   const auto approximation = newton(tiles, leaf, verdict.zeros);
-  if (!approximation) return std::nullopt;
+  if (!approximation) return kQuarter;
   const Point<2>& x = approximation->x;
   double offset = 0;
   for (int i = 0; i < 2; ++i)
     offset = std::max(offset, std::fabs(x[i] - leaf.center()[i]) / (0.5 * leaf.width(i)));
-  if (!(offset < 1.7)) return std::nullopt;
+  if (!(offset < 1.7)) return kQuarter;
   Box<2> around = leaf;
   const Contraction<2>* valid = &verdict.contraction;
   std::optional<Contraction<2>> wider;
@@ -363,7 +363,7 @@ std::optional<int> PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf,
       around.hi[i] = leaf.hi[i] + 0.5 * leaf.width(i);
     }
     wider = contraction_around(around, &tiles);
-    if (!wider) return std::nullopt;
+    if (!wider) return kQuarter;
     valid = &*wider;
   }
   std::optional<Enclosure> root;
@@ -371,14 +371,14 @@ std::optional<int> PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf,
     root = tight_box(node_tiles, around, *approximation);
   if (!root || !narrow(root->box)) {
     const auto box = enclose(tiles, around, *valid, x);
-    if (!box) return std::nullopt;
+    if (!box) return kQuarter;
     root = Enclosure{*box, false};
   }
   for (std::size_t k = 0; k < roots.size(); ++k) {
     if (!roots[k].meets(root->box)) continue;
     // Both boxes hold a zero and `around` at most one: the same.
     if (around.contains(roots[k])) return static_cast<int>(k);
-    return std::nullopt;
+    return kQuarter;
   }
   roots.push_back(root->box);
   rounded.push_back(root->rounded);
@@ -399,7 +399,7 @@ Box<2> inner_box(const Box<2>& box, const Box<2>& local) {
   return part;
 }
 
-std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box<2>* part) {
+int PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box<2>* part) {
   test_system(*node.net, kQuality, &verdict_);
   Box<2> box = node.box;
   const SystemNet* net = node.net;
@@ -414,13 +414,12 @@ std::optional<int> PlaneRoots::settle(const PlaneSubdivision<2>::Node& node, Box
     if (round == 0) {
       *part = zeros;
       // Patches from halving have the box's coordinates, fresh ones those of its chart.
-      if (!halves_exactly(box)) return std::nullopt;
+      if (!halves_exactly(box)) return kQuarter;
     }
     // Where all zeros lie in a small part, a closer look at that part is worth its price.
-    if (round == kCloserLooks || zeros.width(0) * zeros.width(1) > 4 * kSmallPart)
-      return std::nullopt;
+    if (round == kCloserLooks || zeros.width(0) * zeros.width(1) > 4 * kSmallPart) return kQuarter;
     const Box<2> inner = inner_box(box, zeros);
-    if (!(inner.width(0) > 0 && inner.width(1) > 0)) return std::nullopt;
+    if (!(inner.width(0) > 0 && inner.width(1) > 0)) return kQuarter;
     SystemNet& next = nets_[round % 2];
     restrict_to(*net, part_of(chart_of(box), inner), &next);
     if (next.excluded()) return cover::kExcluded;
@@ -445,8 +444,8 @@ RootIsolation<2> isolate_roots(Sought<2> sought, const std::vector<Line>& half_p
   PlaneSubdivision<2> subdivision(std::move(sought), half_planes, limits, kernel);
   const auto visit = [&](PlaneSubdivision<2>::Node& node) {
     roots.use(subdivision.polynomials());
-    if (const auto token = roots.settle(node, &node.part)) return *token;
-    if (node.level < kSimpleLevels) return PlaneSubdivision<2>::kQuarter;
+    const int token = roots.settle(node, &node.part);
+    if (token != kQuarter || node.level < kSimpleLevels) return token;
     // Across the axis along which they change more: curves that touch or share a tangent there.
     const auto [x, y] = relative_variation(*node.net);
     return x >= y ? cover::kSplitX : cover::kSplitY;
