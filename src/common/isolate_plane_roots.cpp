@@ -88,6 +88,7 @@ class PlaneRoots {
 
   std::array<TiledFunction*, 2> system_{};
   Kernel& kernel_;
+  std::vector<std::size_t> strays_;  ///< the roots that were not found inside their leaf
   std::array<Tile, 2> around_tiles_;
   std::array<SystemNet, 2> nets_;
   SystemVerdict verdict_;
@@ -98,13 +99,16 @@ std::optional<PlaneRoots::Step> PlaneRoots::newton_step(const Tiles& tiles, cons
                                                         const std::array<double, 2>* values) const {
   Step step;
   std::array<double, 2> value;
+  std::array<Point<2>, 2> local, per_half;
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 2; ++k) {
+      per_half[i][k] = 1 / tiles[i]->half[k];
+      local[i][k] = (x[k] - tiles[i]->center[k]) * per_half[i][k];
+    }
+  const auto jets = values_and_gradients(tiles, local);
   for (int i = 0; i < 2; ++i) {
-    const Tile& tile = *tiles[i];
-    const Point<2> per_half{1 / tile.half[0], 1 / tile.half[1]};
-    const auto jet = value_and_gradient(
-        tile, {(x[0] - tile.center[0]) * per_half[0], (x[1] - tile.center[1]) * per_half[1]});
-    value[i] = values ? (*values)[i] : jet[0];
-    step.jacobian[i] = {jet[1] * per_half[0], jet[2] * per_half[1]};
+    value[i] = values ? (*values)[i] : jets[i][0];
+    step.jacobian[i] = {jets[i][1] * per_half[i][0], jets[i][2] * per_half[i][1]};
   }
   const auto& j = step.jacobian;
   const double scale = 1 / (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
@@ -356,7 +360,8 @@ int PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf, const SystemVe
   Box<2> around = leaf;
   const Contraction<2>* valid = &verdict.contraction;
   std::optional<Contraction<2>> wider;
-  if (offset > 0.95) {
+  const bool inside = offset <= 0.95;
+  if (!inside) {
     // The zero is at the border or outside: argue on a box that has it well inside.
     for (int i = 0; i < 2; ++i) {
       around.lo[i] = leaf.lo[i] - 0.5 * leaf.width(i);
@@ -374,12 +379,16 @@ int PlaneRoots::near(const Tiles& node_tiles, const Box<2>& leaf, const SystemVe
     if (!box) return kQuarter;
     root = Enclosure{*box, false};
   }
-  for (std::size_t k = 0; k < roots.size(); ++k) {
+  // What lies inside its leaf can only meet what does not.
+  const std::size_t others = inside ? strays_.size() : roots.size();
+  for (std::size_t n = 0; n < others; ++n) {
+    const std::size_t k = inside ? strays_[n] : n;
     if (!roots[k].meets(root->box)) continue;
     // Both boxes hold a zero and `around` at most one: the same.
     if (around.contains(roots[k])) return static_cast<int>(k);
     return kQuarter;
   }
+  if (!inside) strays_.push_back(roots.size());
   roots.push_back(root->box);
   rounded.push_back(root->rounded);
   return static_cast<int>(roots.size()) - 1;

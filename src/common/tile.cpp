@@ -150,30 +150,70 @@ void fill_tile(const double* high, const double* low, int degree, int stride, bo
   shift_high_powers(powers, degree, sums->high_terms);
 }
 
-/// The value of sum a[i][j] s^i t^j and its derivatives.
-void evaluate(const double* a, int degree, double s, double t, double* result) {
-  // In each lane j: sum over i of a[i][j] s^i, and its derivative; then the sum over the lanes.
-  const Row at = Row::all(s);
-  double value = 0, slope_s = 0, slope_t = 0;
-  for (int part = degree / 8; part >= 0; --part) {
-    const double* from = a + 8 * part;
-    Row v = Row::all(0), d = Row::all(0);
-    for (int i = degree - 8 * part; i >= 0; --i) {
-      d = d * at + v;
-      v = v * at + Row::load(from + i * Tile::kRow);
+/// Which of t, t^2 and t^4 the power t^k of a lane consists of.
+struct LanePowers {
+  alignas(64) double has[3][8], lacks[3][8];
+};
+constexpr LanePowers lane_powers(int first) {
+  LanePowers p{};
+  for (int bit = 0; bit < 3; ++bit)
+    for (int lane = 0; lane < 8; ++lane) {
+      const bool has = lane + first > 0 && (lane + first) >> bit & 1;
+      p.has[bit][lane] = has ? 1 : 0;
+      p.lacks[bit][lane] = has ? 0 : 1;
     }
-    HWY_ALIGN double x[8], y[8];
-    v.store(x);
-    d.store(y);
-    for (int j = std::min(7, degree - 8 * part); j >= 0; --j) {
-      slope_t = slope_t * t + value;
-      value = value * t + x[j];
-      slope_s = slope_s * t + y[j];
-    }
+  return p;
+}
+HWY_INLINE Row powers(const LanePowers& of, const Row& first, const Row& second,
+                      const Row& fourth) {
+  const auto factor = [&](int bit, const Row& power) HWY_ATTR {
+    return power * Row::load(of.has[bit]) + Row::load(of.lacks[bit]);
+  };
+  return factor(0, first) * factor(1, second) * factor(2, fourth);
+}
+
+/// Sums over i of a[i][j] s^i in each lane j, and their derivatives.
+HWY_INLINE void sum_rows(const double* a, int degree, const Row& s, Row* value, Row* slope) {
+  Row v = Row::all(0), d = v;
+  for (int i = degree; i >= 0; --i) {
+    d = d * s + v;
+    v = v * s + Row::load(a + i * Tile::kRow);
   }
-  result[0] = value;
-  result[1] = slope_s;
-  result[2] = slope_t;
+  *value = v;
+  *slope = d;
+}
+
+/// The value of sum a[i][j] s^i t^j, i + j <= degree, and its derivatives.
+HWY_INLINE void evaluate_at(const double* a, int degree, const Point<2>& at, double* result) {
+  static constexpr LanePowers kPowers = lane_powers(0), kPowersBefore = lane_powers(-1);
+  HWY_ALIGN static constexpr double kExponents[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  const Row s = Row::all(at[0]), t = Row::all(at[1]), second = t * t, fourth = second * second;
+  Row v, d;
+  sum_rows(a, degree, s, &v, &d);
+  // Then the sums over the lanes, times powers of t.
+  const Row power = powers(kPowers, t, second, fourth),
+            slope = powers(kPowersBefore, t, second, fourth) * Row::load(kExponents);
+  Row of_t = v * slope;
+  if (degree >= 8) {
+    Row v8, d8;
+    sum_rows(a + 8, degree - 8, s, &v8, &d8);
+    const Row seventh = t * second * fourth, eighth = fourth * fourth;
+    of_t = of_t + v8 * (slope * eighth + power * (Row::all(8) * seventh));
+    v = v + v8 * eighth;
+    d = d + d8 * eighth;
+  }
+  result[0] = sum_of_lanes(v * power);
+  result[1] = sum_of_lanes(d * power);
+  result[2] = sum_of_lanes(of_t);
+}
+
+void evaluate(const double* a, int degree, const Point<2>& at, double* result) {
+  evaluate_at(a, degree, at, result);
+}
+
+/// The same of two polynomials, each at a point of its own.
+void evaluate_both(const double* const* a, const int* degree, const Point<2>* at, double* result) {
+  for (int k = 0; k < 2; ++k) evaluate_at(a[k], degree[k], at[k], result + 3 * k);
 }
 
 /// The values and derivatives of sum a[i][j] s^i t^j at eight points: result[0] to result[7] are
@@ -224,6 +264,7 @@ namespace {
 
 HWY_EXPORT(fill_tile);
 HWY_EXPORT(evaluate);
+HWY_EXPORT(evaluate_both);
 HWY_EXPORT(evaluate_eight);
 
 constexpr double kUp = 1 + 0x1p-40;  // outweighs the roundings of the sums it multiplies
@@ -265,7 +306,16 @@ CoefficientSums fill(Tile* tile, int n, const PairedCoefficients& coefficients, 
 
 std::array<double, 3> value_and_gradient(const Tile& tile, const Point<2>& s) {
   std::array<double, 3> result;
-  HWY_DYNAMIC_DISPATCH(evaluate)(tile.a[0].data(), tile.degree, s[0], s[1], result.data());
+  HWY_DYNAMIC_DISPATCH(evaluate)(tile.a[0].data(), tile.degree, s, result.data());
+  return result;
+}
+
+std::array<std::array<double, 3>, 2> values_and_gradients(const std::array<const Tile*, 2>& tiles,
+                                                          const std::array<Point<2>, 2>& s) {
+  std::array<std::array<double, 3>, 2> result;
+  const double* const a[2] = {tiles[0]->a[0].data(), tiles[1]->a[0].data()};
+  const int degree[2] = {tiles[0]->degree, tiles[1]->degree};
+  HWY_DYNAMIC_DISPATCH(evaluate_both)(a, degree, s.data(), result[0].data());
   return result;
 }
 

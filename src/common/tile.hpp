@@ -138,6 +138,10 @@ class TiledFunction {
 /// heuristics and Newton steps.
 std::array<double, 3> value_and_gradient(const Tile& tile, const Point<2>& s);
 
+/// The same of two tiles, each at a point of its own.
+std::array<std::array<double, 3>, 2> values_and_gradients(const std::array<const Tile*, 2>& tiles,
+                                                          const std::array<Point<2>, 2>& s);
+
 /// The same at up to eight points s of one tile.
 void values_and_gradients(const Tile& tile, const Point<2>* s, int count, double* value, double* ds,
                           double* dt);
