@@ -52,7 +52,7 @@ HWY_INLINE void combine_rows(const double* rows, int stride, int last, const dou
     for (int i = first; i <= last; ++i) {
       const Row row = Row::load(rows + stride * i);
       const double* factors = matrix + Powers::kRow * i + first;
-      for (int k = 0; k < kColumns; ++k) sum[k] = sum[k] + row * Row::all(factors[k]);
+      for (int k = 0; k < kColumns; ++k) sum[k] = multiply_add(row, Row::all(factors[k]), sum[k]);
     }
     for (int k = 0; k < kColumns; ++k) result[first + k] = sum[k];
   }

@@ -40,8 +40,8 @@ HWY_INLINE void to_bernstein(const ChebyshevTable& table, Row* c) {
   Row result[N];
   for (int j = 0; 2 * j < N; ++j) {
     Row even = c[0], odd = c[1] * Row::all(table.matrix[j][1]);
-    for (int k = 2; k < N; k += 2) even = even + c[k] * Row::all(table.matrix[j][k]);
-    for (int k = 3; k < N; k += 2) odd = odd + c[k] * Row::all(table.matrix[j][k]);
+    for (int k = 2; k < N; k += 2) even = multiply_add(c[k], Row::all(table.matrix[j][k]), even);
+    for (int k = 3; k < N; k += 2) odd = multiply_add(c[k], Row::all(table.matrix[j][k]), odd);
     result[j] = even + odd;
     result[N - 1 - j] = even - odd;
   }
@@ -148,11 +148,11 @@ HWY_INLINE double least_combined_slope(const NetRows& net, double alpha, double 
     const Row here = Row::load(memory + 8 * i);
     const Row previous = Row::load_unaligned((i == 0 ? first + 8 : memory + 8 * i) - 1);
     const Row next = Row::load_unaligned((i == N - 1 ? last : memory + 8 * i) + 1);
-    const Row lanes = (here - previous) * before + (next - here) * after;
+    const Row lanes = multiply_add(here - previous, before, (next - here) * after);
     Row rows = rise * Row::all(alpha * weights.before[i]);
     if (i < N - 1) {
       rise = Row::load(memory + 8 * (i + 1)) - here;
-      rows = rows + rise * Row::all(alpha * weights.after[i]);
+      rows = multiply_add(rise, Row::all(alpha * weights.after[i]), rows);
     }
     least_yet = least(least_yet, rows + lanes);
   }

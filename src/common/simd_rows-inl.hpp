@@ -62,10 +62,12 @@ ENCASE_ROW_OPERATION(least, Min)
 ENCASE_ROW_OPERATION(greatest, Max)
 #undef ENCASE_ROW_OPERATION
 
-/// a * b + c, rounded once or twice: all instruction sets agree where the product is a double.
+/// a * b + c, rounded once where the processor can do that, else twice: they agree where the product
+/// is a double.
+HWY_INLINE Vector multiply_add(Vector a, Vector b, Vector c) { return hn::MulAdd(a, b, c); }
 HWY_INLINE Row multiply_add(const Row& a, const Row& b, const Row& c) {
   Row r;
-  for (int k = 0; k < kParts; ++k) r.part[k] = hn::MulAdd(a.part[k], b.part[k], c.part[k]);
+  for (int k = 0; k < kParts; ++k) r.part[k] = multiply_add(a.part[k], b.part[k], c.part[k]);
   return r;
 }
 HWY_INLINE Row absolute(const Row& a) {

@@ -38,13 +38,13 @@ HWY_INLINE void cut_rows(const Cut& cut, Row* rows) {
 #pragma GCC unroll 8
     for (int r = 1; r < N; ++r)
 #pragma GCC unroll 8
-      for (int j = N - 1; j >= r; --j) c[j] = hn::Add(hn::Mul(c[j - 1], at_end), c[j]);
+      for (int j = N - 1; j >= r; --j) c[j] = multiply_add(c[j - 1], at_end, c[j]);
 #pragma GCC unroll 8
     for (int r = 1; r < N; ++r) c[r] = hn::Mul(c[r], hn::Set(Lanes(), cut.end_scale[r]));
 #pragma GCC unroll 8
     for (int r = 1; r < N; ++r)
 #pragma GCC unroll 8
-      for (int j = 0; j < N - r; ++j) c[j] = hn::Add(c[j], hn::Mul(c[j + 1], at_beginning));
+      for (int j = 0; j < N - r; ++j) c[j] = multiply_add(c[j + 1], at_beginning, c[j]);
     for (int i = 0; i < N; ++i)
       rows[i].part[p] = hn::Mul(c[i], hn::Set(Lanes(), cut.beginning_scale[N - 1 - i]));
   }

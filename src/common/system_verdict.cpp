@@ -79,8 +79,8 @@ HWY_INLINE void bound_rests(const NetRows& f, const NetRows& g, const Matrix<2>&
     for (int i = 0; i < N; ++i) {
       const Vector a = hn::Load(Lanes(), f[i].data() + k * kLanes),
                    b = hn::Load(Lanes(), g[i].data() + k * kLanes);
-      const Vector c0 = hn::Add(hn::Mul(y00, a), hn::Mul(y01, b)),
-                   c1 = hn::Add(hn::Mul(y10, a), hn::Mul(y11, b));
+      const Vector c0 = multiply_add(y00, a, hn::Mul(y01, b)),
+                   c1 = multiply_add(y10, a, hn::Mul(y11, b));
       all[0].add(hn::Sub(c0, hn::Set(Lanes(), along[i])));
       all[1].add(hn::Sub(c1, lanes));
     }
@@ -95,7 +95,7 @@ HWY_INLINE NetExtremes bound_combination(const NetRows& f, const NetRows& g,
   const Row of_f = Row::all(y[0]), of_g = Row::all(y[1]);
   RowExtent extent;
   for (int i = 0; i < N; ++i)
-    extent.add(of_f * Row::load(f[i].data()) + of_g * Row::load(g[i].data()));
+    extent.add(multiply_add(of_f, Row::load(f[i].data()), of_g * Row::load(g[i].data())));
   return extent.extremes();
 }
 
@@ -128,7 +128,7 @@ HWY_INLINE void bound_slopes(const NetRows& f, const NetRows& g, const Matrix<2>
   for (int i = 0; i + 1 < N; ++i) {
     const Row a = Row::load(f[i + 1].data()) - Row::load(f[i].data()),
               b = Row::load(g[i + 1].data()) - Row::load(g[i].data());
-    const Row d0 = y00 * a + y01 * b, d1 = y10 * a + y11 * b;
+    const Row d0 = multiply_add(y00, a, y01 * b), d1 = multiply_add(y10, a, y11 * b);
     extent[0].add(d0);
     extent[1].add(d1);
   }
@@ -138,7 +138,7 @@ HWY_INLINE void bound_slopes(const NetRows& f, const NetRows& g, const Matrix<2>
   }
   for (int i = 0; i < N; ++i) {
     const Row a = of_f.change(i), b = of_g.change(i);
-    const Row d0 = y00 * a + y01 * b, d1 = y10 * a + y11 * b;
+    const Row d0 = multiply_add(y00, a, y01 * b), d1 = multiply_add(y10, a, y11 * b);
     extent[0].add(d0);
     extent[1].add(d1);
   }
