@@ -52,37 +52,44 @@ HWY_INLINE void choose_combinations(const NetRows& f, const NetRows& g, Precondi
     const double* c = corner[k];
     j[k] = {0.25 * ((c[2] - c[0]) + (c[3] - c[1])), 0.25 * ((c[1] - c[0]) + (c[3] - c[2]))};
   }
+  const Matrix<2> adjugate{{{j[1][1], -j[0][1]}, {-j[1][0], j[0][0]}}};
+  for (int k = 0; k < 2; ++k) {
+    double c[4];
+    for (int m = 0; m < 4; ++m)
+      c[m] = adjugate[k][0] * corner[0][m] + adjugate[k][1] * corner[1][m];
+    some[k] = agree(c[0], c[1], c[2], c[3]);
+  }
   const double scale = 1 / (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
   result->regular = scale > -1e300 && scale < 1e300;
   const double s = result->regular ? scale : 1;
-  Matrix<2>& y = result->y;
-  y = {{{j[1][1] * s, -j[0][1] * s}, {-j[1][0] * s, j[0][0] * s}}};
-  for (int k = 0; k < 2; ++k) {
-    double c[4];
-    for (int m = 0; m < 4; ++m) c[m] = y[k][0] * corner[0][m] + y[k][1] * corner[1][m];
-    some[k] = agree(c[0], c[1], c[2], c[3]);
-  }
+  for (int k = 0; k < 2; ++k) result->y[k] = {adjugate[k][0] * s, adjugate[k][1] * s};
 }
+
+/// Minus the coordinates of the coefficients along an axis; lanes from N on repeat the last one.
+template <int N>
+struct MinusAlong {
+  alignas(64) double x[8];
+  constexpr MinusAlong() : x{} {
+    for (int i = 0; i < 8; ++i) x[i] = 1 - 2.0 / (N - 1) * (i < N ? i : N - 1);
+  }
+};
 
 /// The extremes of the combinations less the coordinates.
 template <int N>
 HWY_INLINE void bound_rests(const NetRows& f, const NetRows& g, const Matrix<2>& y,
                             NetExtremes* rest) {
-  constexpr double n = N - 1;
-  HWY_ALIGN double along[8];
-  for (int i = 0; i < 8; ++i) along[i] = 2 / n * (i < N ? i : N - 1) - 1;
+  static constexpr MinusAlong<N> kMinusAlong;
   PartExtent all[2];
   const Vector y00 = hn::Set(Lanes(), y[0][0]), y01 = hn::Set(Lanes(), y[0][1]),
                y10 = hn::Set(Lanes(), y[1][0]), y11 = hn::Set(Lanes(), y[1][1]);
   for (int k = 0; k < kUsedParts<N>; ++k) {
-    const Vector lanes = hn::Load(Lanes(), along + k * kLanes);
+    const Vector lanes = hn::Load(Lanes(), kMinusAlong.x + k * kLanes);
     for (int i = 0; i < N; ++i) {
       const Vector a = hn::Load(Lanes(), f[i].data() + k * kLanes),
                    b = hn::Load(Lanes(), g[i].data() + k * kLanes);
-      const Vector c0 = multiply_add(y00, a, hn::Mul(y01, b)),
-                   c1 = multiply_add(y10, a, hn::Mul(y11, b));
-      all[0].add(hn::Sub(c0, hn::Set(Lanes(), along[i])));
-      all[1].add(hn::Sub(c1, lanes));
+      const Vector rows = hn::Set(Lanes(), kMinusAlong.x[i]);
+      all[0].add(multiply_add(y00, a, multiply_add(y01, b, rows)));
+      all[1].add(multiply_add(y10, a, multiply_add(y11, b, lanes)));
     }
   }
   for (int k = 0; k < 2; ++k) rest[k] = all[k].extremes();
