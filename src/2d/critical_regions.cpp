@@ -40,10 +40,10 @@ namespace {
 /// may stay close together for a long way, that along which it changes more, weighted by the width.
 int splitting_axis(const PlaneSubdivision<1>::Node& node, const std::array<double, 2>& change) {
   constexpr int kUsualLevels = 16;
-  constexpr double kFarMore = 16;
+  constexpr double kFarMore = 16, kNearlyAll = 0.999;  // (No rounding breaks symmetry's ties.)
   const Box<2>& box = node.box;
   if (node.level >= kUsualLevels)
-    return change[0] * box.width(0) >= change[1] * box.width(1) ? 0 : 1;
+    return change[0] * box.width(0) >= kNearlyAll * change[1] * box.width(1) ? 0 : 1;
   const int longer = cover::kSplitX - wider_axis(box);
   return change[1 - longer] > kFarMore * change[longer] ? 1 - longer : longer;
 }

@@ -18,8 +18,9 @@ constexpr double kQuality = 0.8;
 constexpr int kQuarter = PlaneSubdivision<2>::kQuarter;
 constexpr double kUp = 1 + 0x1p-40;
 constexpr int kCloserLooks = 3;
-constexpr double kSmallPart = 0.3;  // of a box's area
-constexpr int kSimpleLevels = 16;   // of halvings, after which most crossings are told apart
+constexpr double kSmallPart = 0.3;    // of a box's area
+constexpr int kSimpleLevels = 16;     // of halvings, after which most crossings are told apart
+constexpr double kNearlyAll = 0.999;  // so that roundings do not break symmetry's ties
 
 /// The distance to the next double away from zero, and towards it.
 double ulp(double x) {
@@ -49,8 +50,7 @@ class PlaneRoots {
   using Tiles = std::array<const Tile*, 2>;
 
   /// The number of the root that a box can contain which holds at most one, or kQuarter.
-  int near(const Tiles& node_tiles, const Box<2>& leaf,
-                          const SystemVerdict& verdict);
+  int near(const Tiles& node_tiles, const Box<2>& leaf, const SystemVerdict& verdict);
 
   /// What becomes of a box on which the nets are given: the token that settles it, or kQuarter and
   /// the part (in the box's coordinates) that holds all zeros.
@@ -457,7 +457,7 @@ RootIsolation<2> isolate_roots(Sought<2> sought, const std::vector<Line>& half_p
     if (token != kQuarter || node.level < kSimpleLevels) return token;
     // Across the axis along which they change more: curves that touch or share a tangent there.
     const auto [x, y] = relative_variation(*node.net);
-    return x >= y ? cover::kSplitX : cover::kSplitY;
+    return x >= kNearlyAll * y ? cover::kSplitX : cover::kSplitY;
   };
   result.tokens = subdivision.run(visit);
   result.boxes = static_cast<int>(result.tokens.size() - known);
