@@ -32,6 +32,13 @@ double ulp_below(double x) {
   return x > 0 ? x - std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) - 1) : 0;
 }
 
+/// A radius not below `wanted`, a multiple of some ulps of x +- it, so that x is their middle, with
+/// no more than five binary digits: they hardly ever tell how `wanted` was rounded.
+double radius_around(double x, double wanted) {
+  const double unit = std::max(4 * ulp(std::fabs(x) + wanted), 0x1p48 * ulp(wanted));
+  return std::ceil(wanted / unit) * unit;
+}
+
 /// As narrow as doubles allow, some units in the last place.
 bool narrow(const Box<2>& box) {
   return box.largest_width() <= 128 * ulp(std::max(std::fabs(box.hi[0]), std::fabs(box.hi[1])));
@@ -209,7 +216,7 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
   Box<2> box;
   bool nearest = true;
   for (int k = 0; k < 2; ++k) {
-    // Around a double, with multiples of some ulps, and room for a checker.
+    // Around a double, with room for a checker.
     const double x = a.x[k] - d[k];
     // What the difference lost (Knuth), and how far the zero may be from the exact one: less than
     // half the distance to the next double?
@@ -218,8 +225,7 @@ std::optional<PlaneRoots::Enclosure> PlaneRoots::tight_box_at(const Tiles& tiles
     nearest = nearest && (std::fabs(lost) + image[k]) * kUp < 0.5 * ulp_below(x);
     const double wanted = std::max(16 * (image[k] + ulp(x)),
                                    16 * ulp(std::max(std::fabs(x), 0x1p-20 * around.width(k))));
-    const double unit = 4 * ulp(std::fabs(x) + wanted);
-    const double r = std::ceil(wanted / unit) * unit;
+    const double r = radius_around(x, wanted);
     box.lo[k] = x - r;
     box.hi[k] = x + r;
     if (!(around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k])) return std::nullopt;
@@ -285,10 +291,8 @@ std::optional<Box<2>> PlaneRoots::krawczyk_box(const Box<2>& around, const Contr
   Box<2> box;
   std::array<double, 2> radius;
   for (int k = 0; k < 2; ++k) {
-    // A multiple of some ulps, so that x is exactly the centre.
     const double wanted = t * c.weights[k] * half[k] * kUp;
-    const double unit = 4 * ulp(std::fabs(x[k]) + wanted);
-    const double r = std::ceil(wanted / unit) * unit;
+    const double r = radius_around(x[k], wanted);
     box.lo[k] = x[k] - r;
     box.hi[k] = x[k] + r;
     if (!(around.lo[k] < box.lo[k] && box.hi[k] < around.hi[k])) return std::nullopt;

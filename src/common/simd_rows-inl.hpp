@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rows of eight doubles, for every instruction set that Highway compiles for (included once for
 // each, therefore the unusual guard). Only the operations that IEEE 754 fixes are used, in a fixed
-// order, so that all instruction sets give the same bits.
+// order, so that all instruction sets give the same bits; but for multiply_add.
 #if defined(ENCASE_SIMD_ROWS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ENCASE_SIMD_ROWS_INL
 #undef ENCASE_SIMD_ROWS_INL
