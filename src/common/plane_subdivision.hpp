@@ -12,11 +12,10 @@
 
 #include "common/analytic_gaps.hpp"
 #include "common/box_tests.hpp"
-#include "common/patch.hpp"
+#include "common/patch_source.hpp"
 #include "common/sought.hpp"
 #include "common/subdivision.hpp"
 #include "common/system_net.hpp"
-#include "common/tile.hpp"
 
 namespace encase {
 
@@ -129,13 +128,6 @@ class PlaneSubdivision {
   static constexpr int kNone = 0;  // no split token
   static constexpr int kLevelsPerBand = 18;
 
-  /// A tile made for one box, where those of the tree are too coarse; those of a node's ancestors
-  /// stay valid while it is at work.
-  struct Local {
-    int level;
-    std::unique_ptr<Tile> tile;
-  };
-
   // The arrays of one subdivision serve the thread's next one: else what many pairs leave behind
   // lies between, and memory ends up in pieces.
   static std::unique_ptr<Node[]>& spare_stack() {
@@ -164,9 +156,7 @@ class PlaneSubdivision {
   bool split_into_quarters(int axis, const Box<2>* halves);
   static int first_axis(const Node& node);
   int try_smaller(const Box<2>& box) const { return N == 1 ? wider_axis(box) : kQuarter; }
-  bool make_patch(const Node& node, int i, Patch* patch, const Tile** tile);
   bool outside(Node& node) const;
-  const Tile* local_tile(const Node& node, int i, int bits);
   void settle(int token, const Node& node);
 
   const Sought<N> sought_;
@@ -183,14 +173,13 @@ class PlaneSubdivision {
   std::vector<Waiting> waiting_;
   std::unique_ptr<Node[]> stack_;
   int top_ = 0;  ///< of the stack
-  std::array<std::vector<Local>, N> local_;
+  std::array<PatchSource, N> sources_;
   /// Those of the first box, then up to four for the children of each of a node's ancestors.
   std::unique_ptr<SystemNet[]> nets_;
   SystemNet fresh_net_;
-  int count_ = Patch::kMaxCount;  ///< of the patches' coefficients in either variable
-  int boxes_ = 0;                 ///< visited; those that had to wait twice
-  int deepest_ = 0;               ///< the level beyond which nothing is halved
-  bool has_gaps_ = false;         ///< some function is not analytic everywhere
+  int boxes_ = 0;          ///< visited; those that had to wait twice
+  int deepest_ = 0;        ///< the level beyond which nothing is halved
+  bool has_gaps_ = false;  ///< some function is not analytic everywhere
   bool stopped_ = false;
   bool unresolved_ = false;
 };
@@ -233,10 +222,10 @@ template <int N>
 template <class Visit>
 void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int budget, Visit visit) {
   polynomials_ = sought_.leaves[static_cast<std::size_t>(leaf)].polynomials;
-  count_ = 0;
+  int count = 0;
   for (const TiledFunction* f : polynomials_)
-    count_ = std::max(count_, patch_count(f->polynomial().degree()));
-  for (auto& list : local_) list.clear();
+    count = std::max(count, patch_count(f->polynomial().degree()));
+  for (int i = 0; i < N; ++i) sources_[i] = PatchSource(polynomials_[i], count, N > 1, &kernel_);
   const int last_level = std::min(level + kLevelsPerBand, deepest_);
   Node& first = stack_[0];
   first.box = box;
@@ -252,9 +241,7 @@ void PlaneSubdivision<N>::descend(const Box<2>& box, int level, int leaf, int bu
   while (top_ >= 0) {
     Node& node = stack_[top_];
     if (node.opens != kNone) tokens_.push_back(node.opens);
-    // Those of ancestors stay: not that of the other half, which holds nothing of this one.
-    for (auto& list : local_)
-      while (!list.empty() && list.back().level >= node.level) list.pop_back();
+    for (PatchSource& source : sources_) source.leave(node.level);
     ++here;
     if (++boxes_ % 64 == 0 && !stopped_) stopped_ = limits_.stop && limits_.stop();
     const int token = stopped_ ? cover::kUnresolved : token_of(node, visit);
@@ -445,59 +432,6 @@ bool PlaneSubdivision<N>::outside(Node& node) const {
   return where == false;
 }
 
-/// How far a net may be from its polynomial, beside its size. Small boxes are where curves touch or
-/// nearly touch, and only the last digits tell them apart.
-constexpr int kUsualLevels = 18;  // of halvings
-inline double tolerated(int level, double usual) { return level > kUsualLevels ? 0x1p-26 : usual; }
-
-/// Whether what is known of the tile holds on the box.
-inline bool holds(const Tile& tile, const Box<2>& box) {
-  constexpr double kReach = 1 + 0x1p-11;  // with room for roundings
-  for (int i = 0; i < 2; ++i) {
-    const double reach = kReach * tile.half[i];
-    if (!(box.lo[i] - tile.center[i] >= -reach && box.hi[i] - tile.center[i] <= reach))
-      return false;
-  }
-  return true;
-}
-
-inline bool coarse(const Patch& patch, int level) {
-  const double part = tolerated(level, 0x1p-4);
-  const double slope_radius = std::max(patch.slope_radius[0], patch.slope_radius[1]);
-  return !(patch.radius <= part * patch.magnitude() &&
-           slope_radius <= part * (patch.hi - patch.lo));
-}
-
-inline bool coarse(const SystemNet& net, int level) {
-  const double of_value = tolerated(level, 0.06), of_slope = tolerated(level, 4);
-  for (const Patch& patch : net.of) {
-    const double slope_radius = std::max(patch.slope_radius[0], patch.slope_radius[1]);
-    if (!(patch.radius <= of_value * patch.magnitude() &&
-          slope_radius <= of_slope * (patch.hi - patch.lo)))
-      return true;
-  }
-  return false;
-}
-
-/// Whether the sign of an expression is proved, so that its slopes need not be known better.
-inline bool is_settled(const TiledFunction& f, const Patch& patch) {
-  return !f.polynomial().is_polynomial() && patch.sign().has_value();
-}
-
-/// Whether a patch on a box that is halved is not worth trying. (Patches tell by themselves how far
-/// they are; of high degrees they are tried on every other level.)
-inline bool hopeless(const Tile& tile, int level) { return tile.degree > 7 && level % 2 == 1; }
-
-/// Whether a smaller box should have the first net.
-/// (What nets of two lack must not matter on parts of the box, the more of which there are the
-/// larger it is.)
-template <int N>
-bool too_large(const Patch& patch, int level) {
-  if (!(patch.left_out > 0.5 * patch.radius)) return false;
-  return N == 1 ? coarse(patch, level)
-                : patch.left_out > std::ldexp(patch.magnitude(), std::min(-10, level - 18));
-}
-
 /// Whether a net says anything of a function.
 inline bool tells(const Patch& patch, int = 0) { return patch.radius < 0.25 * patch.magnitude(); }
 inline bool tells(const SystemNet* net, int i) { return tells(net->of[i]); }
@@ -508,7 +442,7 @@ template <>
 inline bool PlaneSubdivision<1>::provide_net(Node& node) {
   if (node.has_net && (node.expanded_at + 2 > node.level || !coarse(node.net, node.level)))
     return true;
-  if (!make_patch(node, 0, &node.net, &node.tile[0])) return false;
+  if (!sources_[0].make(node.box, node.level, &node.net, &node.tile[0])) return false;
   node.expanded_at = node.level;
   node.has_net = true;
   return true;
@@ -524,7 +458,7 @@ inline bool PlaneSubdivision<2>::provide_net(Node& node) {
   std::array<const Tile*, 2> tiles = node.tile;
   for (int i = 0; i < 2; ++i) {
     net.of[i].radius = node.has_net ? node.net->of[i].radius : HUGE_VAL;
-    if (!make_patch(node, i, &net.of[i], &tiles[i])) return false;
+    if (!sources_[i].make(node.box, node.level, &net.of[i], &tiles[i])) return false;
     node.excluded = net.of[i].sign().has_value();
     if (node.excluded) return false;
   }
@@ -533,52 +467,6 @@ inline bool PlaneSubdivision<2>::provide_net(Node& node) {
   *node.net = net;
   node.has_net = true;
   return true;
-}
-
-/// A patch on the node's box from a tile, which replaces the one that was used last;
-/// `patch->radius` is what was known with that.
-template <int N>
-bool PlaneSubdivision<N>::make_patch(const Node& node, int i, Patch* patch, const Tile** used) {
-  const auto make = [&](const Tile& tile) { expand(tile, node.box, count_, patch); };
-  const bool has_local = !local_[i].empty();  // of an ancestor
-  if (node.level < 2 * kLevelsPerBand || has_local) {
-    const Tile* tile =
-        has_local ? local_[i].back().tile.get() : &polynomials_[i]->at(node.box.center());
-    Point<2> parts;
-    for (int axis = 0; axis < 2; ++axis)
-      parts[axis] = 0.5 * node.box.width(axis) / tile->half[axis];
-    const double part = std::max(parts[0], parts[1]);
-    if (part > 1.01) return false;
-    const bool within = holds(*tile, node.box);
-    if (N == 1 && !*used && hopeless(*tile, node.level)) return false;
-    if (within) {
-      make(*tile);
-      if (!*used && too_large<N>(*patch, node.level)) return false;
-      *used = tile;
-      // What is lost by the low degree shrinks with the box.
-      if (!coarse(*patch, node.level) || patch->left_out > 0.5 * patch->radius) return true;
-    }
-  }
-  // A tile of the box's own, in double-doubles, then in MPFR.
-  for (int bits = kernel_.start_bits; bits > 0; bits = kernel_.next(bits)) {
-    if (bits == Kernel::kExtendedBits) continue;
-    const double before = *used ? patch->radius : HUGE_VAL;
-    *used = local_tile(node, i, bits);
-    make(**used);
-    if (!coarse(*patch, node.level) || polynomials_[i]->wants_smaller(**used) ||
-        is_settled(*polynomials_[i], *patch) ||
-        (bits > Kernel::kDoubleBits && !(patch->radius < 0.5 * before)))
-      break;
-  }
-  return true;
-}
-
-template <int N>
-const Tile* PlaneSubdivision<N>::local_tile(const Node& node, int i, int bits) {
-  if (local_[i].empty() || local_[i].back().level != node.level)
-    local_[i].push_back({node.level, std::make_unique<Tile>()});
-  polynomials_[i]->expand(node.box, bits, local_[i].back().tile.get());
-  return local_[i].back().tile.get();
 }
 
 }  // namespace encase

@@ -49,6 +49,17 @@ struct Tile {
   std::array<double, kMaxDegree - 7> high_terms{};
 };
 
+/// Whether what is known of a tile holds on the box.
+inline bool holds(const Tile& tile, const Box<2>& box) {
+  constexpr double kReach = 1 + 0x1p-11;  // with room for roundings
+  for (int i = 0; i < 2; ++i) {
+    const double reach = kReach * tile.half[i];
+    if (!(box.lo[i] - tile.center[i] >= -reach && box.hi[i] - tile.center[i] <= reach))
+      return false;
+  }
+  return true;
+}
+
 /// Sums of the absolute values of coefficients, times kReach^degree: of those that a tile has and
 /// that it has no room for.
 struct CoefficientSums {
