@@ -53,6 +53,13 @@ HWY_INLINE bool beyond(const NetExtremes& e, double radius) {
   return e.lo > radius || e.hi < -radius;
 }
 
+/// Whether all have one sign.
+HWY_INLINE bool agree(const std::array<double, 4>& x) {
+  const double lo = std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
+  const double hi = std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
+  return lo > 0 || hi < 0;
+}
+
 // Of the rows of a net only some parts are needed; all others repeat its last lane.
 
 template <int N>

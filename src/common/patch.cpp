@@ -86,13 +86,6 @@ HWY_INLINE double largest(const std::array<double, 4>& x) {
   return std::max(std::max(size(x[0]), size(x[1])), std::max(size(x[2]), size(x[3])));
 }
 
-/// Whether no two have different signs.
-HWY_INLINE bool agree(const std::array<double, 4>& x) {
-  const double lo = std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
-  const double hi = std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
-  return lo > 0 || hi < 0;
-}
-
 /// A direction along which f ascends at all four corners, as much as possible where it does least:
 /// the point that is closest to zero between the outermost of the gradients. False if there is
 /// none.

@@ -34,11 +34,6 @@ struct Preconditioned {
 HWY_BEFORE_NAMESPACE();
 namespace encase::HWY_NAMESPACE {
 
-/// Whether all have one sign.
-HWY_INLINE bool agree(double a, double b, double c, double d) {
-  return (a > 0 && b > 0 && c > 0 && d > 0) || (a < 0 && b < 0 && c < 0 && d < 0);
-}
-
 /// The inverse of the mean Jacobian, as the corners show it, or its adjugate; `some`: the
 /// combinations with these rows that have one sign at the corners.
 template <int N>
@@ -54,10 +49,10 @@ HWY_INLINE void choose_combinations(const NetRows& f, const NetRows& g, Precondi
   }
   const Matrix<2> adjugate{{{j[1][1], -j[0][1]}, {-j[1][0], j[0][0]}}};
   for (int k = 0; k < 2; ++k) {
-    double c[4];
-    for (int m = 0; m < 4; ++m)
+    std::array<double, 4> c;
+    for (std::size_t m = 0; m < 4; ++m)
       c[m] = adjugate[k][0] * corner[0][m] + adjugate[k][1] * corner[1][m];
-    some[k] = agree(c[0], c[1], c[2], c[3]);
+    some[k] = agree(c);
   }
   const double scale = 1 / (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
   result->regular = scale > -1e300 && scale < 1e300;
