@@ -15,11 +15,11 @@
 namespace encase {
 
 /// Where a part of [0,1] begins and ends, for de Casteljau's algorithm at the end and then, in
-/// [0,end], at the beginning. Sums in place of averages: w_1 a + w_2 b is w_2 times a w_1 / w_2 +
-/// b.
+/// [0,end], at the beginning. Averages w_1 a + w_2 b are made as a w_1 / w_2 + b, the weights w_2
+/// of all stages at last.
 struct Cut {
   double at_end, at_beginning;                       ///< the weights' quotients
-  std::array<double, 8> end_scale, beginning_scale;  ///< what r stages are to be multiplied by
+  std::array<double, 8> end_scale, beginning_scale;  ///< powers of the weights w_2
 };
 
 }  // namespace encase

@@ -249,6 +249,27 @@ TEST(SystemNet, OnAPartWithoutWidthProvesNothing) {
   for (const Patch& patch : part.of) EXPECT_FALSE(std::isfinite(patch.radius));
 }
 
+TEST(SystemNet, OnAPartOfHugeNetsProvesNothing) {
+  const FilteredFunction<2> f(written::polynomial<2>("x^10 + y^10 + 1")),
+      g(written::polynomial<2>("x^3 + y"));
+  Kernel kernel;
+  for (const int exponent : {50, 65}) {
+    const double size = std::ldexp(1.0, exponent);
+    const Box<2> box{{-size, -size}, {size, size}};
+    TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
+    Tile tile_f, tile_g;
+    of_f.expand(box, 53, &tile_f);
+    of_g.expand(box, 53, &tile_g);
+    const SystemNet net = on_box(tile_f, tile_g, box);
+    ASSERT_TRUE(std::isfinite(net.of[0].radius));
+    SystemNet part;
+    restrict_to(net, {{0.25, 0}, {0.5, 1}}, &part);
+    EXPECT_EQ(std::isfinite(part.of[0].radius), net.of[0].magnitude() < 0x1p600) << exponent;
+    EXPECT_EQ(net.of[0].magnitude() < 0x1p600, exponent == 50);
+    EXPECT_TRUE(std::isfinite(part.of[1].radius));
+  }
+}
+
 TEST(SystemNet, VariationIsAlongTheAxes) {
   const FilteredFunction<2> f(written::polynomial<2>("x + 3 y")),
       g(written::polynomial<2>("x/2 + y"));
