@@ -285,6 +285,17 @@ Box<2> bounds_of(const OpenCell& cell) {
   return bounds;
 }
 
+void OpenCell::clear() {
+  edges.clear();
+  vertices.clear();
+  word.clear();
+  crossings.clear();
+  critical_regions.clear();
+  zones.clear();
+  saddles.clear();
+  earlier_cut = sketches = -1;
+}
+
 std::optional<Sign> Partition::side_of(const CriticalRegion& region, const Line& line) {
   std::optional<Sign> all;
   for (const Box<2>& box : region.boxes) {
@@ -301,26 +312,28 @@ void Partition::build_child(const OpenCell& cell, const Cut& cut, int first_root
   const int begin = positive ? cut.out : cut.in, end = positive ? cut.in : cut.out;
   const int word_begin = positive ? cut.word_at_out : cut.word_at_in;
   const int word_end = positive ? cut.word_at_in : cut.word_at_out;
-  const int n = cell.size(), edges = (end - begin + n) % n + 2;
-  const int count = static_cast<int>(cut.roots.size());
-  child->edges.reserve(edges);
-  child->vertices.reserve(edges);
-  child->word.reserve(cell.word.size() + count);
+  const int n = cell.size(), word_size = static_cast<int>(cell.word.size());
+  const auto word_at = [&](int place) { return cell.word.begin() + place; };
   child->vertices.push_back(positive ? cut.vertex_out : cut.vertex_in);
-  const auto take_edge = [&](int k, int from, int to) {
-    child->word.insert(child->word.end(), cell.word.begin() + from, cell.word.begin() + to);
-    child->edges.push_back(
-        {cell.edges[k].line, cell.edges[k].positive, static_cast<int>(child->word.size())});
-  };
-  take_edge(begin, word_begin, cell.edges[begin].end);
-  for (int k = (begin + 1) % n; k != end; k = (k + 1) % n) {
-    child->vertices.push_back(cell.vertices[k]);
-    take_edge(k, cell.begin_of(k), cell.edges[k].end);
+  int before = -word_begin;  // crossings of the child's word before the first one of the cell's
+  for (int k = begin; k != end; child->vertices.push_back(cell.vertices[k])) {
+    const OpenCell::Edge& edge = cell.edges[k];
+    child->edges.push_back({edge.line, edge.positive, before + edge.end});
+    if (++k < n) continue;
+    k = 0;
+    before += word_size;
   }
-  child->vertices.push_back(cell.vertices[end]);
-  take_edge(end, cell.begin_of(end), word_end);
+  const OpenCell::Edge& last = cell.edges[end];
+  child->edges.push_back({last.line, last.positive, before + word_end});
+  if (begin < end) {
+    child->word.assign(word_at(word_begin), word_at(word_end));
+  } else {
+    child->word.assign(word_at(word_begin), cell.word.end());
+    child->word.insert(child->word.end(), cell.word.begin(), word_at(word_end));
+  }
   child->vertices.push_back(positive ? cut.vertex_in : cut.vertex_out);
   const bool ascending = parameter_grows(cut.line, positive);
+  const int count = static_cast<int>(cut.roots.size());
   for (int i = 0; i < count; ++i)
     child->word.push_back(first_root + (ascending ? i : count - 1 - i));
   child->edges.push_back(
@@ -341,9 +354,11 @@ bool Partition::apply(const OpenCell& cell, Cut* cut, OpenCell* negative, OpenCe
             first_root = static_cast<int>(line_crossings.size());
   lines.push_back(cut->line);
   add_line_crossings(id, cut->roots);
-  negative->positive = false;
-  positive->positive = true;
-  for (OpenCell* child : {negative, positive}) build_child(cell, *cut, first_root, child);
+  for (OpenCell* child : {negative, positive}) {
+    child->clear();
+    child->positive = child == positive;
+    build_child(cell, *cut, first_root, child);
+  }
   // A critical region that the line meets is inside neither child nor any cell below.
   for (const int k : cell.critical_regions)
     if (const auto s = side_of(critical_regions[k], cut->line))

@@ -52,6 +52,8 @@ struct OpenCell {
   int earlier_cut = -1;  ///< of the EarlierEncasement, that cut the same cell; -1 for none
   int sketches = -1;     ///< those of `CellAtHand` that were made for an ancestor; -1 for none
 
+  /// Becomes another cell, with nothing in it yet. The arrays keep their memory.
+  void clear();
   int size() const { return static_cast<int>(edges.size()); }
   int begin_of(int edge) const { return edge == 0 ? 0 : edges[edge - 1].end; }
 };
