@@ -76,19 +76,19 @@ struct Expectations {
   Expectations() {
     for (int r = 0; r < kCrossingsInTable; ++r) {
       crossings[r] = cells_for_crossings(r);
-      for (int m = 1; m < kBranchesInTable; ++m) branches[m][r] = cells_for_branches(m, r);
+      for (int m = 1; m < kBranchesInTable; ++m) branches[r][m] = cells_for_branches(m, r);
     }
   }
   double for_crossings(int r) const {
     return r < kCrossingsInTable ? crossings[r] : cells_for_crossings(r);
   }
   double for_branches(int m, int r) const {
-    return m < kBranchesInTable && r < kCrossingsInTable ? branches[m][r]
+    return m < kBranchesInTable && r < kCrossingsInTable ? branches[r][m]
                                                          : cells_for_branches(m, r);
   }
 
   std::array<double, kCrossingsInTable> crossings{};
-  std::array<std::array<double, kCrossingsInTable>, kBranchesInTable> branches{};
+  std::array<std::array<double, kBranchesInTable>, kCrossingsInTable> branches{};
 };
 const Expectations expectations;
 
@@ -214,24 +214,26 @@ void CellAtHand::find_points() {
 void CellAtHand::mark() {
   const int groups = 1 + 2 * static_cast<int>(curves_.size());
   has_all_groups_ = groups <= kMostGroups;
-  marks_.clear(has_all_groups_ ? groups : 1);
-  for (const Place& vertex : cell_->vertices) marks_.add(vertex.center);
-  first_crossing_mark_ = marks_.size();
-  for (const InnerCrossing& crossing : crossings_) marks_.add(crossing.place.center);
-  marks_.fill_row(cell_->vertices[0].center);
-  near_marks_ = marks_.size();
-  for (const BoundaryPoint& point : points()) marks_.add(point.at);
-  marks_.fill_row(cell_->vertices[0].center);
-  marks_.make_groups();
-  for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const int k = first_crossing_mark_ + static_cast<int>(i);
+  first_crossing_mark_ = cell_->size();
+  near_marks_ = (first_crossing_mark_ + static_cast<int>(crossings_.size()) + 7) / 8 * 8;
+  marks_.reset(has_all_groups_ ? groups : 1, near_marks_ + static_cast<int>(points().size()),
+               cell_->vertices[0].center);
+  int k = 0;
+  for (const Place& vertex : cell_->vertices) marks_.place(k++, vertex.center);
+  for (const InnerCrossing& crossing : crossings_) {
+    marks_.place(k, crossing.place.center);
     marks_.join(0, k);
-    if (!has_all_groups_) continue;
-    for (const int s : crossings_[i].slots)
-      if (s >= 0) marks_.join(1 + 2 * s, k);
+    if (has_all_groups_)
+      for (const int s : crossing.slots)
+        if (s >= 0) marks_.join(1 + 2 * s, k);
+    ++k;
   }
-  for (std::size_t i = 0; has_all_groups_ && i < points_.size(); ++i)
-    marks_.join(2 + 2 * slot_[points_[i].curve], near_marks_ + static_cast<int>(i));
+  k = near_marks_;
+  for (const BoundaryPoint& point : points_) {
+    marks_.place(k, point.at);
+    if (has_all_groups_) marks_.join(2 + 2 * slot_[point.curve], k);
+    ++k;
+  }
   heights_.resize(near_marks_);
   positive_.resize(groups);
 }
@@ -341,10 +343,13 @@ void CellAtHand::set_slivers(const Line& line, double clearance) {
 /// miss the cell.
 bool CellAtHand::guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const {
   const auto& vertices = cell_->vertices;
-  int count = 0;
-  std::size_t last = vertices.size() - 1;
-  for (std::size_t k = 0; k < vertices.size(); last = k++) {
-    if ((heights[k] > 0) == (heights[last] > 0)) continue;
+  const int n = cell_->size();
+  int count = 0, last = n - 1;
+  bool was_positive = heights[last] > 0;
+  for (int k = 0; k < n; last = k++) {
+    const bool is_positive = heights[k] > 0;
+    if (is_positive == was_positive) continue;
+    was_positive = is_positive;
     if (count == 2) return false;
     const double w = heights[last] / (heights[last] - heights[k]);
     const Point<2>&a = vertices[last].center, &b = vertices[k].center;

@@ -47,7 +47,7 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
       if (a.root.hi == b.root.lo && a.curve == b.curve) continue;
       disjoint = false;
       for (Cut::Root* r : {&a, &b}) {
-        TiledFunction& f = tiles_.about(r->curve, box_on_line(line, r->root.lo, r->root.hi));
+        TiledFunction& f = tiles_.about(r->curve, line, r->root.lo, r->root.hi);
         if (!refine_on_line(f, line, &r->root, kernel_)) return false;
       }
     }
@@ -60,11 +60,11 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
 bool Partition::isolate_in_parts(int curve, const Line& line, double from, double to,
                                  int max_nodes) {
   const auto isolate = [&](double lo, double hi) {
-    TiledFunction& f = tiles_.about(curve, box_on_line(line, lo, hi));
+    TiledFunction& f = tiles_.about(curve, line, lo, hi);
     return isolate_on_line(f, line, lo, hi, max_nodes, kernel_, &found_);
   };
   stops_.clear();
-  TiledFunction& whole = tiles_.about(curve, box_on_line(line, from, to));
+  TiledFunction& whole = tiles_.about(curve, line, from, to);
   if (!tiles_.is_innermost(curve, whole)) tiles_.append_stops(curve, line, from, to, &stops_);
   if (stops_.empty()) return isolate_on_line(whole, line, from, to, max_nodes, kernel_, &found_);
   stops_.push_back(to);
@@ -85,7 +85,7 @@ bool Partition::isolate_between(int curve, const Line& line, const Interval& fro
   found_.clear();
   if (!isolate_in_parts(curve, line, from.lo, to.hi, max_nodes)) return false;
   if (found_.empty()) return true;
-  TiledFunction& f = tiles_.about(curve, box_on_line(line, from.lo, to.hi));
+  TiledFunction& f = tiles_.about(curve, line, from.lo, to.hi);
   for (LineRoot& root : found_) {
     // The vertices must be free of the curve: no root in their enclosures.
     if (!clear_of(f, line, from, &root, kernel_) || !clear_of(f, line, to, &root, kernel_) ||
@@ -235,7 +235,7 @@ std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
   for (int i = cell.begin_of(edge); i < e.end; ++i) {
     LineCrossing& c = line_crossings[cell.word[i]];
     LineRoot root{c.lo, c.hi, spots_[cell.word[i]].parameter};
-    TiledFunction& f = tiles_.about(c.curve, box_on_line(line, c.lo, c.hi));
+    TiledFunction& f = tiles_.about(c.curve, line, c.lo, c.hi);
     if (!clear_of(f, line, parameter, &root, kernel_)) return std::nullopt;
     c.lo = root.lo;
     c.hi = root.hi;
@@ -265,18 +265,6 @@ ValueAndGradient value_and_gradient(TiledFunction& f, const Point<2>& at) {
   const auto [value, slope_0, slope_1] = value_and_gradient(
       tile, Point<2>{(at[0] - tile.center[0]) * scale[0], (at[1] - tile.center[1]) * scale[1]});
   return {value, {slope_0 * scale[0], slope_1 * scale[1]}};
-}
-
-Box<2> box_on_line(const Line& line, double from, double to) {
-  const int p = parameter_axis(line), q = 1 - p;
-  Box<2> box;
-  box.lo[p] = from;
-  box.hi[p] = to;
-  const double slope = -line.normal[p] / line.normal[q], base = -line.offset / line.normal[q],
-               a = base + slope * from, b = base + slope * to;
-  box.lo[q] = std::min(a, b);
-  box.hi[q] = std::max(a, b);
-  return box;
 }
 
 Box<2> bounds_of(const OpenCell& cell) {

@@ -186,9 +186,6 @@ struct ValueAndGradient {
 };
 ValueAndGradient value_and_gradient(TiledFunction& f, const Point<2>& at);
 
-/// About the smallest box around the part of a line between two parameters.
-Box<2> box_on_line(const Line& line, double from, double to);
-
 /// The smallest box around the centres of a cell's vertices.
 Box<2> bounds_of(const OpenCell& cell);
 

@@ -87,12 +87,15 @@ Line line_through(const Point<2>& point, const Point<2>& normal) {
 }
 
 void SplittingLines::keep_closest(std::size_t count) {
-  count = std::min(count, pairs_.size());
-  std::partial_sort(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(count),
-                    pairs_.end(), [](const Pair& p, const Pair& q) {
-                      return p.gap != q.gap ? p.gap < q.gap : p.a != q.a ? p.a < q.a : p.b < q.b;
-                    });
-  pairs_.resize(count);
+  const auto is_closer = [](const Pair& p, const Pair& q) {
+    return p.gap != q.gap ? p.gap < q.gap : p.a != q.a ? p.a < q.a : p.b < q.b;
+  };
+  if (count < pairs_.size()) {
+    std::nth_element(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(count),
+                     pairs_.end(), is_closer);
+    pairs_.resize(count);
+  }
+  std::sort(pairs_.begin(), pairs_.end(), is_closer);
 }
 
 SplittingLines::SplittingLines(CellAtHand& cell, bool fast)

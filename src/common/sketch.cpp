@@ -212,18 +212,12 @@ void slopes(const Sketch& f, const Sketch::Lanes& s, const Sketch::Lanes& t, Ske
   HWY_DYNAMIC_DISPATCH(slopes_at)(f, s.data(), t.data(), result);
 }
 
-void PointGroups::clear(int group_count) {
-  x.clear();
-  y.clear();
+void PointGroups::reset(int group_count, int point_count, const Point<2>& point) {
+  const auto whole_rows = static_cast<std::size_t>((point_count + 7) / 8 * 8);
   groups = group_count;
-}
-
-void PointGroups::fill_row(const Point<2>& point) {
-  while (size() % 8 != 0) add(point);
-}
-
-void PointGroups::make_groups() {
-  member.assign(static_cast<std::size_t>((size() + 63) / 64 * groups), 0);
+  x.assign(whole_rows, point[0]);
+  y.assign(whole_rows, point[1]);
+  member.assign((whole_rows + 63) / 64 * static_cast<std::size_t>(groups), 0);
 }
 
 double divide(const PointGroups& points, const Line& line, int near, double* heights,
