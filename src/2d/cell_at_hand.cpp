@@ -58,10 +58,28 @@ double uncrossed(int branches, int crossings) {
   return branches * std::pow(1 - 1.0 / branches, crossings);
 }
 
-/// What so many branches of a curve with so many crossings add.
-double cells_for_branches(int branches, int crossings) {
-  if (branches == 0) return 0;
-  return kPerBranch * branches + kPerUncrossedBranch * uncrossed(branches, crossings);
+/// The branches of a curve in a part, or at least so many while it is not known where a line
+/// crosses the curve: one if the curve has crossings there.
+int branches_in_part(int ends, int crossings) {
+  return std::max<int>(crossings > 0, (ends + 1) >> 1);
+}
+
+Branches branches_of_curve(int ends, int crossings) {
+  const int count = branches_in_part(ends, crossings);
+  if (count == 0) return {};
+  return {1, count, kPerBranch * count + kPerUncrossedBranch * uncrossed(count, crossings)};
+}
+
+void add(const Branches& more, Branches* all) {
+  all->curves += more.curves;
+  all->count += more.count;
+  all->cells += more.cells;
+}
+
+void remove(const Branches& less, Branches* all) {
+  all->curves -= less.curves;
+  all->count -= less.count;
+  all->cells -= less.cells;
 }
 
 bool is_among(const Line& line, const std::vector<Line>& lines) {
@@ -70,25 +88,24 @@ bool is_among(const Line& line, const std::vector<Line>& lines) {
   });
 }
 
-constexpr int kCrossingsInTable = 64, kBranchesInTable = 16;
-
 struct Expectations {
+  static constexpr int kCrossings = 64, kEnds = 32;  // in tables
+
   Expectations() {
-    for (int r = 0; r < kCrossingsInTable; ++r) {
+    for (int r = 0; r < kCrossings; ++r) {
       crossings[r] = cells_for_crossings(r);
-      for (int m = 1; m < kBranchesInTable; ++m) branches[r][m] = cells_for_branches(m, r);
+      for (int e = 0; e < kEnds; ++e) branches[r][e] = branches_of_curve(e, r);
     }
   }
   double for_crossings(int r) const {
-    return r < kCrossingsInTable ? crossings[r] : cells_for_crossings(r);
+    return r < kCrossings ? crossings[r] : cells_for_crossings(r);
   }
-  double for_branches(int m, int r) const {
-    return m < kBranchesInTable && r < kCrossingsInTable ? branches[r][m]
-                                                         : cells_for_branches(m, r);
+  Branches of_curve(int ends, int r) const {
+    return ends < kEnds && r < kCrossings ? branches[r][ends] : branches_of_curve(ends, r);
   }
 
-  std::array<double, kCrossingsInTable> crossings{};
-  std::array<std::array<double, kBranchesInTable>, kCrossingsInTable> branches{};
+  std::array<double, kCrossings> crossings;
+  std::array<std::array<Branches, kEnds>, kCrossings> branches;
 };
 const Expectations expectations;
 
@@ -148,7 +165,7 @@ void CellAtHand::prepare() {
   is_prepared_ = true;
   find_crossings();
   Branches all;
-  for (const Presence& p : curves_) all.add(branches_of(p.ends, p.crossings), p.crossings);
+  for (const Presence& p : curves_) add(expectations.of_curve(p.ends, p.crossings), &all);
   expected_cells_ = expected_cells(static_cast<int>(crossings_.size()), all);
   shares_.resize(curves_.size());
   mark();
@@ -254,12 +271,6 @@ double CellAtHand::divide_marks(const Line& line) {
   return least;
 }
 
-/// The branches of a curve in a part, or at least so many while it is not known where the line
-/// crosses the curve: one if the curve has crossings there.
-int CellAtHand::branches_of(int ends, int crossings) {
-  return std::max<int>(crossings > 0, (ends + 1) >> 1);
-}
-
 bool CellAtHand::is_simple(int part) const {
   int branches = 0;
   for (const Shares& curve : shares_) {
@@ -267,19 +278,6 @@ bool CellAtHand::is_simple(int part) const {
     branches += curve.ends[part] > 0;
   }
   return branches <= 1 || (branches == 2 && crossings_in_[part] == 1);
-}
-
-void CellAtHand::Branches::add(int branches, int crossings) {
-  curves += branches > 0;
-  count += branches;
-  cells += expectations.for_branches(branches, crossings);
-}
-
-void CellAtHand::Branches::replace(int before, int after, int crossings) {
-  curves += (after > 0) - (before > 0);
-  count += after - before;
-  cells -= expectations.for_branches(before, crossings);
-  cells += expectations.for_branches(after, crossings);
 }
 
 double CellAtHand::expected_cells(int crossings, const Branches& branches) {
@@ -297,7 +295,7 @@ int CellAtHand::least_cells(int part) const {
   int total = crossings_in_[part];
   for (const Shares& curve : shares_) {
     const int crossings = curve.crossings[part];
-    total += branches_of(curve.ends[part], crossings) - (crossings > 0 ? 1 : 0);
+    total += branches_in_part(curve.ends[part], crossings) - (crossings > 0 ? 1 : 0);
   }
   return std::max(1, total);
 }
@@ -313,7 +311,7 @@ void CellAtHand::count_branches() {
   for (int k = 0; k < 2; ++k) {
     Branches all;
     for (const Shares& curve : shares_)
-      all.add(branches_of(curve.ends[k], curve.crossings[k]), curve.crossings[k]);
+      add(expectations.of_curve(curve.ends[k], curve.crossings[k]), &all);
     branches_[k] = all;
   }
 }
@@ -322,9 +320,9 @@ void CellAtHand::count_branches() {
 void CellAtHand::add_roots(std::size_t slot, int roots) {
   Shares& curve = shares_[slot];
   for (int k = 0; k < 2; ++k) {
-    const int crossings = curve.crossings[k], before = branches_of(curve.ends[k], crossings);
+    remove(expectations.of_curve(curve.ends[k], curve.crossings[k]), &branches_[k]);
     curve.ends[k] += roots;
-    branches_[k].replace(before, branches_of(curve.ends[k], crossings), crossings);
+    add(expectations.of_curve(curve.ends[k], curve.crossings[k]), &branches_[k]);
   }
 }
 

@@ -10,6 +10,13 @@
 
 namespace encase {
 
+/// The branches of some curves in a part of a cell.
+struct Branches {
+  int curves = 0;    ///< with branches
+  int count = 0;     ///< of branches
+  double cells = 0;  ///< what they add to the cells to be expected
+};
+
 /// The open cell that is being worked on, with what trying lines on it needs again and again, the
 /// lines proposed for it and the cut that was proved. One object serves all cells in turn: once its
 /// arrays have grown, neither a cell nor a line costs an allocation.
@@ -105,15 +112,6 @@ class CellAtHand {
     std::vector<Sketch> sketches;  ///< at least as many
     bool serve = true;             ///< all that have been asked for
   };
-  /// The branches of some curves in a part.
-  struct Branches {
-    int curves = 0;    ///< with branches
-    int count = 0;     ///< of branches
-    double cells = 0;  ///< what they add to the cells to be expected
-    /// Those of a curve with so many crossings.
-    void add(int branches, int crossings);
-    void replace(int before, int after, int crossings);
-  };
   struct InnerCrossing {
     Place place;
     std::array<int, 2> slots;  // of its curves
@@ -123,7 +121,6 @@ class CellAtHand {
     double score;  ///< at least so much, if the values used do not deceive
     bool sampled;  ///< the roots on the line are in the score
   };
-  static int branches_of(int ends, int crossings);
   bool is_simple(int part) const;
   bool leaves_simple_parts() const { return is_simple(0) && is_simple(1); }
   static double expected_cells(int crossings, const Branches& branches);
