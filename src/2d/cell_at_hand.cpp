@@ -328,7 +328,9 @@ void CellAtHand::add_roots(std::size_t slot, int roots) {
 
 /// Whether the line cannot become better than the best. Counts only grow, so this may be asked
 /// before all curves are restricted to it.
-bool CellAtHand::is_beaten(double score) const { return has_cut_ && !(score < best_.score - kTie); }
+bool CellAtHand::is_beaten(double score) const {
+  return has_cut_ && !(score < best_->score - kTie);
+}
 
 void CellAtHand::set_slivers(const Line& line, double clearance) {
   const Point<2>& normal = line.normal;
@@ -473,18 +475,18 @@ bool CellAtHand::cross_boundary(const Line& line, double* clearance) {
     }
     *clearance = std::min(*clearance, std::fabs(at.value));
   }
-  trial_.out = trial_.in = -1;
+  trial_->out = trial_->in = -1;
   for (int k = 0; k < n; ++k) {
     const bool here = sides_[k], there = sides_[k + 1 < n ? k + 1 : 0];
-    if (here != there) (there ? trial_.out : trial_.in) = k;
+    if (here != there) (there ? trial_->out : trial_->in) = k;
   }
-  return trial_.out >= 0 && trial_.in >= 0;
+  return trial_->out >= 0 && trial_->in >= 0;
 }
 
 bool CellAtHand::divide_crossings(const Line& line, double* clearance) {
   shares_.assign(curves_.size(), {});
   crossings_in_ = {};
-  trial_.positive.resize(crossings_.size());
+  trial_->positive.resize(crossings_.size());
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
     const LineValue at = value_at(line, crossings_[i].place);
     bool positive = at.value > 0;
@@ -493,7 +495,7 @@ bool CellAtHand::divide_crossings(const Line& line, double* clearance) {
       if (!s) return false;
       positive = *s == Sign::Positive;
     }
-    trial_.positive[i] = positive;
+    trial_->positive[i] = positive;
     *clearance = std::min(*clearance, std::fabs(at.value));
     ++crossings_in_[positive];
     for (const int s : crossings_[i].slots)
@@ -517,13 +519,13 @@ bool CellAtHand::count_old_crossings(const Line& line) {
     *word_at = cell_->begin_of(edge) + *before;
     return true;
   };
-  if (!cut_edge(trial_.out, &trial_.vertex_out, &trial_.word_at_out) ||
-      !cut_edge(trial_.in, &trial_.vertex_in, &trial_.word_at_in))
+  if (!cut_edge(trial_->out, &trial_->vertex_out, &trial_->word_at_out) ||
+      !cut_edge(trial_->in, &trial_->vertex_in, &trial_->word_at_in))
     return false;
   // The boundary is positive from `out` to `in`.
-  const bool wraps = trial_.out > trial_.in;
+  const bool wraps = trial_->out > trial_->in;
   for (int i = 0; i < static_cast<int>(cell_->word.size()); ++i) {
-    const bool after_out = i >= trial_.word_at_out, before_in = i < trial_.word_at_in;
+    const bool after_out = i >= trial_->word_at_out, before_in = i < trial_->word_at_in;
     const bool positive = wraps ? after_out || before_in : after_out && before_in;
     ++shares_[slot_[partition_.line_crossings[cell_->word[i]].curve]].ends[positive];
   }
@@ -532,17 +534,17 @@ bool CellAtHand::count_old_crossings(const Line& line) {
 
 bool CellAtHand::add_new_crossings(const Line& line) {
   const int axis = parameter_axis(line);
-  Interval from = trial_.vertex_out.range(axis), to = trial_.vertex_in.range(axis);
+  Interval from = trial_->vertex_out.range(axis), to = trial_->vertex_in.range(axis);
   if (!(from.hi < to.lo)) std::swap(from, to);
   if (!(from.hi < to.lo)) return false;
-  trial_.roots.clear();
+  trial_->roots.clear();
   const bool may_end = std::any_of(cell_->zones.begin(), cell_->zones.end(),
                                    [&](int id) { return partition_.zones[id].crossable; });
   for (std::size_t s = 0; s < curves_.size(); ++s) {
-    const std::size_t before = trial_.roots.size();
-    if (!partition_.isolate_between(curves_[s].curve, line, from, to, kMaxNodes, &trial_.roots))
+    const std::size_t before = trial_->roots.size();
+    if (!partition_.isolate_between(curves_[s].curve, line, from, to, kMaxNodes, &trial_->roots))
       return false;
-    const int roots = static_cast<int>(trial_.roots.size() - before);
+    const int roots = static_cast<int>(trial_->roots.size() - before);
     if (roots > 0) add_roots(s, roots);
     // A curve enters a cell as often as it leaves it: a free check of all the above. (But it may
     // end where its function is not analytic.)
@@ -565,9 +567,9 @@ bool CellAtHand::cuts_well(const Line& line) {
 /// Proves what a line does, and keeps the cut if it is the best.
 void CellAtHand::prove(const Line& line) {
   if (!cuts_well(line)) return;
-  trial_.line = line;
-  trial_.score = score();
-  for (int k = 0; k < 2; ++k) trial_.least_cells[k] = least_cells(k);
+  trial_->line = line;
+  trial_->score = score();
+  for (int k = 0; k < 2; ++k) trial_->least_cells[k] = least_cells(k);
   std::swap(trial_, best_);
   is_finished_ = leaves_simple_parts();
   has_cut_ = true;
@@ -578,13 +580,13 @@ bool CellAtHand::prove_best() {
     const auto next =
         std::min_element(proposals_.begin(), proposals_.end(),
                          [](const Proposal& a, const Proposal& b) { return a.score < b.score; });
-    if (has_cut_ && !(next->score < best_.score - kTie)) break;
+    if (has_cut_ && !(next->score < best_->score - kTie)) break;
     if (!next->sampled && weigh(HUGE_VAL, &*next)) continue;
     prove(next->line);
     proposals_.erase(next);
   }
   proposals_.clear();
-  best_score_ = has_cut_ ? best_.score : HUGE_VAL;
+  best_score_ = has_cut_ ? best_->score : HUGE_VAL;
   seems_finished_ = has_cut_ && is_finished_;
   return has_cut_;
 }

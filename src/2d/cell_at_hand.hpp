@@ -23,6 +23,8 @@ struct Branches {
 class CellAtHand {
  public:
   explicit CellAtHand(Partition& partition);
+  CellAtHand(const CellAtHand&) = delete;
+  CellAtHand& operator=(const CellAtHand&) = delete;
 
   /// Turns to another cell, which must outlive this use.
   void take(const OpenCell& cell);
@@ -94,7 +96,7 @@ class CellAtHand {
     return has_cut_;
   }
   bool has_cut() const { return has_cut_; }
-  Cut& cut() { return best_; }
+  Cut& cut() { return *best_; }
   /// Forgets the lines proposed and the best cut.
   void start_again();
 
@@ -182,7 +184,8 @@ class CellAtHand {
   std::vector<Proposal> proposals_;
   double best_score_ = HUGE_VAL;
   bool seems_finished_ = false;
-  Cut trial_, best_;
+  std::array<Cut, 2> cuts_;
+  Cut *trial_ = &cuts_[0], *best_ = &cuts_[1];
   bool has_cut_ = false, is_finished_ = false;
 };
 

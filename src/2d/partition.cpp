@@ -161,6 +161,14 @@ void Partition::fill(OpenCell* cell) {
       cell->saddles.push_back(static_cast<int>(k));
 }
 
+void Partition::reserve(std::size_t cuts) {
+  constexpr std::size_t kCrossingsPerCut = 3;
+  lines.reserve(lines.size() + cuts);
+  line_crossings.reserve(line_crossings.size() + kCrossingsPerCut * cuts);
+  spots_.reserve(spots_.size() + kCrossingsPerCut * cuts);
+  history.reserve(cuts);
+}
+
 void Partition::forget_cuts(const OpenCell& opened) {
   lines.resize(opened.edges.size());
   line_crossings.resize(opened.word.size());
@@ -302,6 +310,10 @@ void Partition::build_child(const OpenCell& cell, const Cut& cut, int first_root
   const int word_end = positive ? cut.word_at_in : cut.word_at_out;
   const int n = cell.size(), word_size = static_cast<int>(cell.word.size());
   const auto word_at = [&](int place) { return cell.word.begin() + place; };
+  const int count = static_cast<int>(cut.roots.size());
+  child->edges.reserve(cell.edges.size() + 2);
+  child->vertices.reserve(cell.vertices.size() + 2);
+  child->word.reserve(cell.word.size() + cut.roots.size());
   child->vertices.push_back(positive ? cut.vertex_out : cut.vertex_in);
   int before = -word_begin;  // crossings of the child's word before the first one of the cell's
   for (int k = begin; k != end; child->vertices.push_back(cell.vertices[k])) {
@@ -321,7 +333,6 @@ void Partition::build_child(const OpenCell& cell, const Cut& cut, int first_root
   }
   child->vertices.push_back(positive ? cut.vertex_in : cut.vertex_out);
   const bool ascending = parameter_grows(cut.line, positive);
-  const int count = static_cast<int>(cut.roots.size());
   for (int i = 0; i < count; ++i)
     child->word.push_back(first_root + (ascending ? i : count - 1 - i));
   child->edges.push_back(

@@ -127,6 +127,9 @@ class Partition {
   /// Gives the opened cell the crossings, critical regions, zones and saddles inside it.
   void fill(OpenCell* cell);
 
+  /// Makes room for what so many cuts add, about.
+  void reserve(std::size_t cuts);
+
   /// Forgets all cuts of the opened cell.
   void forget_cuts(const OpenCell& opened);
 

@@ -77,20 +77,23 @@ void slopes_at(const Sketch& f, const double* s, const double* t, SketchSlopes* 
 /// Rows of 16 coefficients, in powers of one variable, for each power of the other.
 using Rows = std::array<std::array<double, Tile::kRow>, Tile::kRow>;
 
-/// p(s) -> p(origin + half s), where row i holds the coefficients of s^i, n - i + 1 of them.
+/// p(s) -> p(origin + half s), where row i holds the coefficients of s^i, n - i + 1 of them and
+/// zeros. If `is_short`, n < 8.
+template <bool is_short>
 HWY_INLINE void shift(Rows& a, int n, double origin, double half) {
   const Row by = Row::all(origin);
   // Synthetic division, by the antidiagonals of its table: the steps of one do not wait for each
   // other.
   for (int level = 0; level < n; ++level)
     for (int i = n - 1 - level; i < n; ++i)
-      for (int k = 0; k < n - i; k += 8)
+      for (int k = 0; k < (is_short ? 8 : n - i); k += 8)
         (Row::load(&a[i][k]) + by * Row::load(&a[i + 1][k])).store(&a[i][k]);
   double power = 1;
   for (int i = 1; i <= n; ++i) {
     power *= half;
     const Row factor = Row::all(power);
-    for (int k = 0; k <= n - i; k += 8) (Row::load(&a[i][k]) * factor).store(&a[i][k]);
+    for (int k = 0; k <= (is_short ? 7 : n - i); k += 8)
+      (Row::load(&a[i][k]) * factor).store(&a[i][k]);
   }
 }
 
@@ -120,9 +123,15 @@ void fill_sketch(const Tile& tile, const double* origin, const double* half, Ske
   const int size = n < 8 ? 8 : Tile::kRow;
   for (int i = 0; i < size; ++i)
     for (int k = 0; k < size; k += 8) Row::load(&tile.a[i][k]).store(&a[i][k]);
-  shift(a, n, origin[0], half[0]);
-  transpose_rows(a, n);
-  shift(a, n, origin[1], half[1]);
+  if (n < 8) {
+    shift<true>(a, n, origin[0], half[0]);
+    transpose_rows(a, n);
+    shift<true>(a, n, origin[1], half[1]);
+  } else {
+    shift<false>(a, n, origin[0], half[0]);
+    transpose_rows(a, n);
+    shift<false>(a, n, origin[1], half[1]);
+  }
   // The sizes of the terms of each degree.
   HWY_ALIGN double sizes[32] = {};
   for (int j = 0; j <= n; ++j)
@@ -149,7 +158,8 @@ void divide_points(const PointGroups& points, const double* line, int near, doub
   const PointGroups::Bits* member = points.member.data();
   for (int word = 0; word < size; word += 64) {
     PointGroups::Bits above = 0;
-    for (int k = word; k < std::min(word + 64, size); k += 8) {
+    const int end = std::min(word + 64, size);
+    for (int k = word; k < end; k += 8) {
       const Row height =
           (a * Row::load_unaligned(&points.x[k]) + b * Row::load_unaligned(&points.y[k])) + c;
       if (k < near) {
