@@ -153,7 +153,7 @@ void CellAtHand::find_crossings() {
     // Curves that cross in the cell without crossing its boundary are present by their loops,
     // unless a splitting line has met the critical region: then they count for nothing.
     const std::array<int, 2> slots{slot_[crossing.curves[0]], slot_[crossing.curves[1]]};
-    crossings_.push_back({crossing.box, slots});
+    crossings_.push_back({&partition_.crossing_places[id], slots});
     for (const int s : slots)
       if (s >= 0) ++curves_[s].crossings;
   }
@@ -238,7 +238,7 @@ void CellAtHand::mark() {
   int k = 0;
   for (const Place& vertex : cell_->vertices) marks_.place(k++, vertex.center);
   for (const InnerCrossing& crossing : crossings_) {
-    marks_.place(k, crossing.place.center);
+    marks_.place(k, crossing.place->center);
     marks_.join(0, k);
     if (has_all_groups_)
       for (const int s : crossing.slots)
@@ -488,10 +488,10 @@ bool CellAtHand::divide_crossings(const Line& line, double* clearance) {
   crossings_in_ = {};
   trial_->positive.resize(crossings_.size());
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const LineValue at = value_at(line, crossings_[i].place);
+    const LineValue at = value_at(line, *crossings_[i].place);
     bool positive = at.value > 0;
     if (!(std::fabs(at.value) > at.error)) {
-      const auto s = side(line, crossings_[i].place.box, partition_.kernel());
+      const auto s = side(line, crossings_[i].place->box, partition_.kernel());
       if (!s) return false;
       positive = *s == Sign::Positive;
     }

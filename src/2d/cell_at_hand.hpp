@@ -115,7 +115,7 @@ class CellAtHand {
     bool serve = true;             ///< all that have been asked for
   };
   struct InnerCrossing {
-    Place place;
+    const Place* place;
     std::array<int, 2> slots;  // of its curves
   };
   struct Proposal {

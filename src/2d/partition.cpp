@@ -27,6 +27,7 @@ bool clear_of(TiledFunction& f, const Line& line, const Interval& vertex, LineRo
 Partition::Partition(const std::vector<FilteredFunction<2>>& curves, NestedTiles& tiles,
                      Features& features, Kernel& kernel)
     : crossings(features.crossings),
+      crossing_places(features.crossing_places),
       critical_regions(features.critical_regions),
       zones(features.zones),
       saddles(features.saddles),
@@ -141,8 +142,10 @@ void Partition::fill(OpenCell* cell) {
     return std::all_of(cell->edges.begin(), cell->edges.end(),
                        [&](const OpenCell::Edge& edge) { return holds(lines[edge.line]); });
   };
+  crossing_places.clear();
+  crossing_places.reserve(crossings.size());
   for (std::size_t k = 0; k < crossings.size(); ++k) {
-    const Place place(crossings[k].box);
+    const Place& place = crossing_places.emplace_back(crossings[k].box);
     if (all_sides([&](const Line& line) { return side(line, place, kernel_) == Sign::Negative; }))
       cell->crossings.push_back(static_cast<int>(k));
     else

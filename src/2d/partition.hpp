@@ -96,6 +96,7 @@ struct Saddle {
 /// different parts of a region share it; of a crossing they change the cell that holds it.
 struct Features {
   std::vector<Crossing> crossings;
+  std::vector<Place> crossing_places;  ///< of their boxes; made by `Partition::fill`
   std::vector<CriticalRegion> critical_regions;
   std::vector<Zone> zones;
   std::vector<Saddle> saddles;  ///< those with the nearest branches first
@@ -110,6 +111,7 @@ class Partition {
   std::vector<Line> lines;
   std::vector<LineCrossing> line_crossings;
   std::vector<Crossing>& crossings;
+  std::vector<Place>& crossing_places;
   std::vector<CriticalRegion>& critical_regions;
   std::vector<Zone>& zones;
   std::vector<Saddle>& saddles;
