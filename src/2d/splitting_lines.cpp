@@ -5,13 +5,15 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 namespace encase {
 namespace {
 
 constexpr double kMiddle = 0.35;     // where the middle of the projections begins
 constexpr int kMostProjected = 256;  // crossings; of more every other, every third, and so on
-constexpr int kFewProjected = 16;    // which are sorted as a whole
+constexpr int kFewProjected = 8;     // which are sorted as a whole
 // Of more than two curves: crossings from which on a cell is halved whatever the branches of one
 // curve do.
 constexpr int kManyCrossings = 16;
@@ -110,20 +112,25 @@ bool SplittingLines::is_good_enough() {
 
 /// The widest gap in the middle of the projections of the crossings at hand.
 SplittingLines::Gap SplittingLines::widest_gap(const Point<2>& direction) {
-  projections_.clear();
-  for (const Point<2>& at : projected_) projections_.push_back(dot(at, direction));
-  const int last_place = static_cast<int>(projections_.size()) - 1;
+  const int last_place = static_cast<int>(projected_.size()) - 1;
   const int from = static_cast<int>(kMiddle * last_place);
   const int to = std::max(from + 1, static_cast<int>(std::ceil((1 - kMiddle) * last_place)));
-  // Only the middle has to be in order.
-  auto first = projections_.begin(), last = projections_.end();
-  if (last_place >= kFewProjected) {
-    first += from;
-    std::nth_element(projections_.begin(), first, last);
-    last = projections_.begin() + to + 1;
-    std::nth_element(first, last - 1, projections_.end());
+  projections_.clear();
+  for (const Point<2>& at : projected_) projections_.push_back(dot(at, direction));
+  if (last_place < kFewProjected) {
+    // Their order cannot be foreseen: without branches.
+    for (int i = 1; i <= last_place; ++i)
+      for (int k = i; k > 0; --k) {
+        double &below = projections_[k - 1], &above = projections_[k];
+        std::tie(below, above) = std::pair(std::min(below, above), std::max(below, above));
+      }
+  } else {
+    // Only the middle has to be in order.
+    const auto first = projections_.begin() + from, last = projections_.begin() + to;
+    std::nth_element(projections_.begin(), first, projections_.end());
+    std::nth_element(first, last, projections_.end());
+    std::sort(first, last);
   }
-  std::sort(first, last);
   int best = from;
   for (int i = from; i < to; ++i)
     if (projections_[i + 1] - projections_[i] > projections_[best + 1] - projections_[best])

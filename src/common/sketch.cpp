@@ -25,8 +25,8 @@ HWY_INLINE std::uint32_t positive_lanes(const Row& row) {
   return result;
 }
 
-/// Bit k: the value at the point s + k ds, t + k dt is positive.
-std::uint32_t positive_along(const Sketch& f, double s, double ds, double t, double dt) {
+/// How often the signs of the values at the 16 points s + k ds, t + k dt change.
+int sign_changes_along(const Sketch& f, double s, double ds, double t, double dt) {
   HWY_ALIGN static constexpr double kNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                     8, 9, 10, 11, 12, 13, 14, 15};
   const Row low = Row::load(kNumbers), high = Row::load(kNumbers + 8);
@@ -45,7 +45,8 @@ std::uint32_t positive_along(const Sketch& f, double s, double ds, double t, dou
     sum0 = sum0 * t0 + inner0;
     sum1 = sum1 * t1 + inner1;
   }
-  return positive_lanes(sum0) | positive_lanes(sum1) << 8;
+  const std::uint32_t positive = positive_lanes(sum0) | positive_lanes(sum1) << 8;
+  return std::popcount((positive ^ (positive >> 1)) & ((1u << (Sketch::kLanes - 1)) - 1));
 }
 
 HWY_INLINE void slopes_of_row(const Sketch& f, const double* s, const double* t, double* values,
@@ -180,7 +181,7 @@ HWY_AFTER_NAMESPACE();
 namespace encase {
 namespace {
 
-HWY_EXPORT(positive_along);
+HWY_EXPORT(sign_changes_along);
 HWY_EXPORT(slopes_at);
 HWY_EXPORT(fill_sketch);
 HWY_EXPORT(divide_points);
@@ -213,9 +214,7 @@ int count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to
     first[i] = (from[i] - f.center[i] + 0.5 * d) * f.scale[i];
     step[i] = d * f.scale[i];
   }
-  const std::uint32_t positive =
-      HWY_DYNAMIC_DISPATCH(positive_along)(f, first[0], step[0], first[1], step[1]);
-  return std::popcount((positive ^ (positive >> 1)) & ((1u << (kSamples - 1)) - 1));
+  return HWY_DYNAMIC_DISPATCH(sign_changes_along)(f, first[0], step[0], first[1], step[1]);
 }
 
 void slopes(const Sketch& f, const Sketch::Lanes& s, const Sketch::Lanes& t, SketchSlopes* result) {
