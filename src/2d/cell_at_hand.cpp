@@ -344,18 +344,25 @@ void CellAtHand::set_slivers(const Line& line, double clearance) {
 bool CellAtHand::guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const {
   const auto& vertices = cell_->vertices;
   const int n = cell_->size();
-  int count = 0, last = n - 1;
-  bool was_positive = heights[last] > 0;
-  for (int k = 0; k < n; last = k++) {
+  // Which sides the vertices are on cannot be foreseen: without branches.
+  std::array<int, 3>
+      crossed{};  // edges, by the vertices that they lead to; the last ones do not count
+  int count = 0;
+  bool was_positive = heights[n - 1] > 0;
+  for (int k = 0; k < n; ++k) {
     const bool is_positive = heights[k] > 0;
-    if (is_positive == was_positive) continue;
+    crossed[std::min(count, 2)] = k;
+    count += is_positive != was_positive;
     was_positive = is_positive;
-    if (count == 2) return false;
+  }
+  if (count != 2) return false;
+  for (int i = 0; i < 2; ++i) {
+    const int k = crossed[i], last = k > 0 ? k - 1 : n - 1;
     const double w = heights[last] / (heights[last] - heights[k]);
     const Point<2>&a = vertices[last].center, &b = vertices[k].center;
-    (*ends)[count++] = {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1])};
+    (*ends)[i] = {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1])};
   }
-  return count == 2;
+  return true;
 }
 
 /// Counts what seems to be on either side, given how many marks of each group are on the positive
