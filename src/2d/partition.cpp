@@ -343,8 +343,13 @@ void Partition::build_child(const OpenCell& cell, const Cut& cut, int first_root
 
   child->depth = cell.depth + 1;
   child->parent = static_cast<int>(history.size());
-  for (std::size_t i = 0; i < cell.crossings.size(); ++i)
-    if ((cut.positive[i] != 0) == positive) child->crossings.push_back(cell.crossings[i]);
+  child->crossings.resize(cell.crossings.size());
+  auto next = child->crossings.begin();
+  for (std::size_t i = 0; i < cell.crossings.size(); ++i) {
+    *next = cell.crossings[i];
+    next += (cut.positive[i] != 0) == positive;  // a branch could not be foreseen
+  }
+  child->crossings.erase(next, child->crossings.end());
   const int least = cut.least_cells[positive];
   child->least_cells = std::min(least, cell.least_cells);
   child->stall = least < cell.least_cells ? 0 : cell.stall + 1;
