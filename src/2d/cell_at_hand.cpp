@@ -58,10 +58,28 @@ double uncrossed(int branches, int crossings) {
   return branches * std::pow(1 - 1.0 / branches, crossings);
 }
 
-/// What so many branches of a curve with so many crossings add.
-double cells_for_branches(int branches, int crossings) {
-  if (branches == 0) return 0;
-  return kPerBranch * branches + kPerUncrossedBranch * uncrossed(branches, crossings);
+/// The branches of a curve in a part, or at least so many while it is not known where a line
+/// crosses the curve: one if the curve has crossings there.
+int branches_in_part(int ends, int crossings) {
+  return std::max<int>(crossings > 0, (ends + 1) >> 1);
+}
+
+Branches branches_of_curve(int ends, int crossings) {
+  const int count = branches_in_part(ends, crossings);
+  if (count == 0) return {};
+  return {1, count, kPerBranch * count + kPerUncrossedBranch * uncrossed(count, crossings)};
+}
+
+void add(const Branches& more, Branches* all) {
+  all->curves += more.curves;
+  all->count += more.count;
+  all->cells += more.cells;
+}
+
+void remove(const Branches& less, Branches* all) {
+  all->curves -= less.curves;
+  all->count -= less.count;
+  all->cells -= less.cells;
 }
 
 bool is_among(const Line& line, const std::vector<Line>& lines) {
@@ -70,25 +88,24 @@ bool is_among(const Line& line, const std::vector<Line>& lines) {
   });
 }
 
-constexpr int kCrossingsInTable = 64, kBranchesInTable = 16;
-
 struct Expectations {
+  static constexpr int kCrossings = 64, kEnds = 32;  // in tables
+
   Expectations() {
-    for (int r = 0; r < kCrossingsInTable; ++r) {
+    for (int r = 0; r < kCrossings; ++r) {
       crossings[r] = cells_for_crossings(r);
-      for (int m = 1; m < kBranchesInTable; ++m) branches[m][r] = cells_for_branches(m, r);
+      for (int e = 0; e < kEnds; ++e) branches[r][e] = branches_of_curve(e, r);
     }
   }
   double for_crossings(int r) const {
-    return r < kCrossingsInTable ? crossings[r] : cells_for_crossings(r);
+    return r < kCrossings ? crossings[r] : cells_for_crossings(r);
   }
-  double for_branches(int m, int r) const {
-    return m < kBranchesInTable && r < kCrossingsInTable ? branches[m][r]
-                                                         : cells_for_branches(m, r);
+  Branches of_curve(int ends, int r) const {
+    return ends < kEnds && r < kCrossings ? branches[r][ends] : branches_of_curve(ends, r);
   }
 
-  std::array<double, kCrossingsInTable> crossings{};
-  std::array<std::array<double, kCrossingsInTable>, kBranchesInTable> branches{};
+  std::array<double, kCrossings> crossings;
+  std::array<std::array<Branches, kEnds>, kCrossings> branches;
 };
 const Expectations expectations;
 
@@ -103,46 +120,54 @@ void CellAtHand::take(const OpenCell& cell) {
   avoided_ = nullptr;
   start_again();
   find_curves();
-  whole_.crossings = static_cast<int>(cell.crossings.size());
-  crossings_.clear();
-  for (const int id : cell.crossings) {
-    const Crossing& crossing = partition_.crossings[id];
-    // Curves that cross in the cell without crossing its boundary are present by their loops,
-    // unless a splitting line has met the critical region: then they count for nothing.
-    const std::array<int, 2> slots{slot_[crossing.curves[0]], slot_[crossing.curves[1]]};
-    crossings_.push_back({crossing.box, slots});
-    for (const int s : slots)
-      if (s >= 0) ++whole_.curves[s].crossings;
-  }
-  find_points();
-  expected_cells_ = expected_cells(whole_);
+  points_.clear();
   is_prepared_ = false;
 }
 
 /// The curves that may meet the cell, and their slots. (Of many curves few do: nothing is done for
 /// the others.)
 void CellAtHand::find_curves() {
-  std::vector<Presence>& curves = whole_.curves;
-  for (const Presence& p : curves) slot_[p.curve] = -1;
-  curves.clear();
+  for (const Presence& p : curves_) slot_[p.curve] = -1;
+  curves_.clear();
   const auto note = [&](int curve) {
-    if (slot_[curve] >= 0) return;
-    slot_[curve] = 0;
-    curves.push_back({curve, 0, 0});
+    int& slot = slot_[curve];
+    if (slot < 0) {
+      slot = static_cast<int>(curves_.size());
+      curves_.push_back({curve, 0, 0});
+    }
+    return slot;
   };
-  for (const int id : cell_->word) note(partition_.line_crossings[id].curve);
+  for (const int id : cell_->word) ++curves_[note(partition_.line_crossings[id].curve)].ends;
   for (const int k : cell_->critical_regions) note(partition_.critical_regions[k].curve);
   if (!cell_->zones.empty())
     for (std::size_t c = 0; c < slot_.size(); ++c) note(static_cast<int>(c));
-  std::sort(curves.begin(), curves.end(),
+  std::sort(curves_.begin(), curves_.end(),
             [](const Presence& a, const Presence& b) { return a.curve < b.curve; });
-  for (std::size_t s = 0; s < curves.size(); ++s) slot_[curves[s].curve] = static_cast<int>(s);
+  for (std::size_t s = 0; s < curves_.size(); ++s) slot_[curves_[s].curve] = static_cast<int>(s);
+}
+
+void CellAtHand::find_crossings() {
+  crossings_.clear();
+  for (const int id : cell_->crossings) {
+    const Crossing& crossing = partition_.crossings[id];
+    // Curves that cross in the cell without crossing its boundary are present by their loops,
+    // unless a splitting line has met the critical region: then they count for nothing.
+    const std::array<int, 2> slots{slot_[crossing.curves[0]], slot_[crossing.curves[1]]};
+    crossings_.push_back({&partition_.crossing_places[id], slots});
+    for (const int s : slots)
+      if (s >= 0) ++curves_[s].crossings;
+  }
 }
 
 /// What is needed to weigh lines, once for every cell that is cut.
 void CellAtHand::prepare() {
   if (is_prepared_) return;
   is_prepared_ = true;
+  find_crossings();
+  Branches all;
+  for (const Presence& p : curves_) add(expectations.of_curve(p.ends, p.crossings), &all);
+  expected_cells_ = expected_cells(static_cast<int>(crossings_.size()), all);
+  shares_.resize(curves_.size());
   mark();
   bounds_ = bounds_of(*cell_);
   extent_ = std::sqrt(bounds_.width(0) * bounds_.width(0) + bounds_.width(1) * bounds_.width(1));
@@ -156,7 +181,7 @@ void CellAtHand::provide_sketches() {
     const double x = box.width(0) / bounds_.width(0), y = box.width(1) / bounds_.width(1);
     return std::max(x, y) > kMostLarger || x * y > kLarger * kLarger;
   };
-  const std::vector<Presence>& here = whole_.curves;
+  const std::vector<Presence>& here = curves_;
   sketch_of_slot_.resize(here.size());
   last_sketches_ = cell_->sketches;
   if (last_sketches_ >= 0 && sketches_[last_sketches_].serve &&
@@ -195,36 +220,37 @@ const Sketch* CellAtHand::sketch(int slot) {
 }
 
 void CellAtHand::find_points() {
-  points_.clear();
-  for (Presence& p : whole_.curves) p.ends = 0;
+  for (Presence& p : curves_) p.ends = 0;  // counted again, for the indices
   for (const int id : cell_->word) {
     const int c = partition_.line_crossings[id].curve;
     const Partition::Spot& spot = partition_.spot(id);
-    points_.push_back({c, whole_.curves[slot_[c]].ends++, spot.at, spot.normal});
+    points_.push_back({c, curves_[slot_[c]].ends++, spot.at, spot.normal});
   }
 }
 
 void CellAtHand::mark() {
-  const int groups = 1 + 2 * static_cast<int>(whole_.curves.size());
+  const int groups = 1 + 2 * static_cast<int>(curves_.size());
   has_all_groups_ = groups <= kMostGroups;
-  marks_.clear(has_all_groups_ ? groups : 1);
-  for (const Place& vertex : cell_->vertices) marks_.add(vertex.center);
-  first_crossing_mark_ = marks_.size();
-  for (const InnerCrossing& crossing : crossings_) marks_.add(crossing.place.center);
-  marks_.fill_row(cell_->vertices[0].center);
-  near_marks_ = marks_.size();
-  for (const BoundaryPoint& point : points_) marks_.add(point.at);
-  marks_.fill_row(cell_->vertices[0].center);
-  marks_.make_groups();
-  for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const int k = first_crossing_mark_ + static_cast<int>(i);
+  first_crossing_mark_ = cell_->size();
+  near_marks_ = (first_crossing_mark_ + static_cast<int>(crossings_.size()) + 7) / 8 * 8;
+  marks_.reset(has_all_groups_ ? groups : 1, near_marks_ + static_cast<int>(points().size()),
+               cell_->vertices[0].center);
+  int k = 0;
+  for (const Place& vertex : cell_->vertices) marks_.place(k++, vertex.center);
+  for (const InnerCrossing& crossing : crossings_) {
+    marks_.place(k, crossing.place->center);
     marks_.join(0, k);
-    if (!has_all_groups_) continue;
-    for (const int s : crossings_[i].slots)
-      if (s >= 0) marks_.join(1 + 2 * s, k);
+    if (has_all_groups_)
+      for (const int s : crossing.slots)
+        if (s >= 0) marks_.join(1 + 2 * s, k);
+    ++k;
   }
-  for (std::size_t i = 0; has_all_groups_ && i < points_.size(); ++i)
-    marks_.join(2 + 2 * slot_[points_[i].curve], near_marks_ + static_cast<int>(i));
+  k = near_marks_;
+  for (const BoundaryPoint& point : points_) {
+    marks_.place(k, point.at);
+    if (has_all_groups_) marks_.join(2 + 2 * slot_[point.curve], k);
+    ++k;
+  }
   heights_.resize(near_marks_);
   positive_.resize(groups);
 }
@@ -245,37 +271,13 @@ double CellAtHand::divide_marks(const Line& line) {
   return least;
 }
 
-/// The branches in a part, or at least so many while it is not known where the line crosses the
-/// curve: one if the curve has crossings there.
-int CellAtHand::branches_of(const Presence& p) {
-  return std::max<int>(p.crossings > 0, (p.ends + 1) >> 1);
-}
-
-bool CellAtHand::is_simple(const Part& part) {
+bool CellAtHand::is_simple(int part) const {
   int branches = 0;
-  for (const Presence& p : part.curves) {
-    if (p.ends > 2) return false;
-    branches += p.ends > 0;
+  for (const Shares& curve : shares_) {
+    if (curve.ends[part] > 2) return false;
+    branches += curve.ends[part] > 0;
   }
-  return branches <= 1 || (branches == 2 && part.crossings == 1);
-}
-
-bool CellAtHand::leaves_simple_parts() const {
-  return is_simple(parts_[0]) && is_simple(parts_[1]);
-}
-
-void CellAtHand::Branches::add(const Presence& p) {
-  const int more = branches_of(p);
-  curves += more > 0;
-  count += more;
-  cells += expectations.for_branches(more, p.crossings);
-}
-
-void CellAtHand::Branches::remove(const Presence& p) {
-  const int less = branches_of(p);
-  curves -= less > 0;
-  count -= less;
-  cells -= expectations.for_branches(less, p.crossings);
+  return branches <= 1 || (branches == 2 && crossings_in_[part] == 1);
 }
 
 double CellAtHand::expected_cells(int crossings, const Branches& branches) {
@@ -288,55 +290,46 @@ double CellAtHand::expected_cells(int crossings, const Branches& branches) {
   return branches.count == 2 ? kFinishedCrossing : expectations.for_crossings(1) + branches.cells;
 }
 
-double CellAtHand::expected_cells(const Part& part) {
-  Branches all;
-  for (const Presence& p : part.curves) all.add(p);
-  return expected_cells(part.crossings, all);
-}
-
-int CellAtHand::least_cells(const Part& part) {
+int CellAtHand::least_cells(int part) const {
   // Every crossing needs a cell of its own, and every branch that no crossing of its curve lies on.
-  int total = part.crossings;
-  for (const Presence& p : part.curves) total += branches_of(p) - (p.crossings > 0 ? 1 : 0);
+  int total = crossings_in_[part];
+  for (const Shares& curve : shares_) {
+    const int crossings = curve.crossings[part];
+    total += branches_in_part(curve.ends[part], crossings) - (crossings > 0 ? 1 : 0);
+  }
   return std::max(1, total);
 }
 
-double CellAtHand::score(double negative, double positive) const {
+double CellAtHand::score() const {
+  const double negative = expected_cells(crossings_in_[0], branches_[0]),
+               positive = expected_cells(crossings_in_[1], branches_[1]);
   return negative + positive + slivers_ -
          kBalance * std::min(negative, positive) / (negative + positive);
 }
 
-double CellAtHand::score() const {
-  return score(expected_cells(parts_[0].crossings, branches_[0]),
-               expected_cells(parts_[1].crossings, branches_[1]));
-}
-
 void CellAtHand::count_branches() {
-  branches_ = {};
-  for (int k = 0; k < 2; ++k)
-    for (const Presence& p : parts_[k].curves) branches_[k].add(p);
+  for (int k = 0; k < 2; ++k) {
+    Branches all;
+    for (const Shares& curve : shares_)
+      add(expectations.of_curve(curve.ends[k], curve.crossings[k]), &all);
+    branches_[k] = all;
+  }
 }
 
 /// The curve of a slot has so many roots on the line.
 void CellAtHand::add_roots(std::size_t slot, int roots) {
+  Shares& curve = shares_[slot];
   for (int k = 0; k < 2; ++k) {
-    Presence& p = parts_[k].curves[slot];
-    branches_[k].remove(p);
-    p.ends += roots;
-    branches_[k].add(p);
+    remove(expectations.of_curve(curve.ends[k], curve.crossings[k]), &branches_[k]);
+    curve.ends[k] += roots;
+    add(expectations.of_curve(curve.ends[k], curve.crossings[k]), &branches_[k]);
   }
 }
 
 /// Whether the line cannot become better than the best. Counts only grow, so this may be asked
 /// before all curves are restricted to it.
-bool CellAtHand::is_beaten(double score) const { return has_cut_ && !(score < best_.score - kTie); }
-
-void CellAtHand::clear_parts() {
-  for (Part& part : parts_) {
-    part.curves = whole_.curves;
-    part.crossings = 0;
-    for (Presence& p : part.curves) p.ends = p.crossings = 0;
-  }
+bool CellAtHand::is_beaten(double score) const {
+  return has_cut_ && !(score < best_->score - kTie);
 }
 
 void CellAtHand::set_slivers(const Line& line, double clearance) {
@@ -350,32 +343,37 @@ void CellAtHand::set_slivers(const Line& line, double clearance) {
 /// miss the cell.
 bool CellAtHand::guess_chord(const double* heights, std::array<Point<2>, 2>* ends) const {
   const auto& vertices = cell_->vertices;
+  const int n = cell_->size();
+  // Which sides the vertices are on cannot be foreseen: without branches.
+  std::array<int, 3>
+      crossed{};  // edges, by the vertices that they lead to; the last ones do not count
   int count = 0;
-  std::size_t last = vertices.size() - 1;
-  for (std::size_t k = 0; k < vertices.size(); last = k++) {
-    if ((heights[k] > 0) == (heights[last] > 0)) continue;
-    if (count == 2) return false;
+  bool was_positive = heights[n - 1] > 0;
+  for (int k = 0; k < n; ++k) {
+    const bool is_positive = heights[k] > 0;
+    crossed[std::min(count, 2)] = k;
+    count += is_positive != was_positive;
+    was_positive = is_positive;
+  }
+  if (count != 2) return false;
+  for (int i = 0; i < 2; ++i) {
+    const int k = crossed[i], last = k > 0 ? k - 1 : n - 1;
     const double w = heights[last] / (heights[last] - heights[k]);
     const Point<2>&a = vertices[last].center, &b = vertices[k].center;
-    (*ends)[count++] = {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1])};
+    (*ends)[i] = {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1])};
   }
-  return count == 2;
+  return true;
 }
 
 /// Counts what seems to be on either side, given how many marks of each group are on the positive
 /// one.
 void CellAtHand::guess_division(const int* positive) {
-  for (Part& part : parts_) part.curves.resize(whole_.curves.size());
-  parts_[1].crossings = positive[0];
-  parts_[0].crossings = whole_.crossings - positive[0];
-  branches_ = {};
-  for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
-    const Presence& all = whole_.curves[s];
+  crossings_in_ = {static_cast<int>(crossings_.size()) - positive[0], positive[0]};
+  for (std::size_t s = 0; s < curves_.size(); ++s) {
     const int crossings = positive[1 + 2 * s], ends = positive[2 + 2 * s];
-    parts_[1].curves[s] = {all.curve, ends, crossings};
-    parts_[0].curves[s] = {all.curve, all.ends - ends, all.crossings - crossings};
-    for (int k = 0; k < 2; ++k) branches_[k].add(parts_[k].curves[s]);
+    shares_[s] = {{curves_[s].ends - ends, ends}, {curves_[s].crossings - crossings, crossings}};
   }
+  count_branches();
 }
 
 void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& points,
@@ -407,17 +405,16 @@ void CellAtHand::values_and_gradients(const std::array<BoundaryPoint, 16>& point
 
 /// The number of roots that a curve seems to have on a chord.
 int CellAtHand::guess_roots_of(int slot, const std::array<Point<2>, 2>& ends) {
-  const int old = parts_[0].curves[slot].ends;
-  if (whole_.curves.size() > kFewCurves && whole_.curves[slot].ends == 2) {
+  const int old = shares_[slot].ends[0];
+  if (curves_.size() > kFewCurves && curves_[slot].ends == 2) {
     // A branch, a short one as a rule: it goes where its crossings are, and nowhere else.
     if (old == 1) return 1;
-    return parts_[old == 0 ? 0 : 1].curves[slot].crossings > 0 ? 2 : 0;
+    return shares_[slot].crossings[old == 0 ? 0 : 1] > 0 ? 2 : 0;
   }
   const Sketch* f = sketch(slot);
-  const int roots =
-      f ? count_sign_changes(*f, ends[0], ends[1])
-        : count_sign_changes(partition_.tiles().about(whole_.curves[slot].curve, bounds_), ends[0],
-                             ends[1]);
+  const int roots = f ? count_sign_changes(*f, ends[0], ends[1])
+                      : count_sign_changes(partition_.tiles().about(curves_[slot].curve, bounds_),
+                                           ends[0], ends[1]);
   // A curve enters a cell as often as it leaves it.
   return roots + (roots + old) % 2;
 }
@@ -426,7 +423,7 @@ int CellAtHand::guess_roots_of(int slot, const std::array<Point<2>, 2>& ends) {
 /// reaches the limit.
 double CellAtHand::guess_roots(const std::array<Point<2>, 2>& ends, double limit) {
   double reached = score();
-  for (std::size_t s = 0; s < whole_.curves.size() && reached < limit; ++s) {
+  for (std::size_t s = 0; s < curves_.size() && reached < limit; ++s) {
     const int roots = guess_roots_of(static_cast<int>(s), ends);
     if (roots == 0) continue;
     add_roots(s, roots);
@@ -485,30 +482,31 @@ bool CellAtHand::cross_boundary(const Line& line, double* clearance) {
     }
     *clearance = std::min(*clearance, std::fabs(at.value));
   }
-  trial_.out = trial_.in = -1;
+  trial_->out = trial_->in = -1;
   for (int k = 0; k < n; ++k) {
     const bool here = sides_[k], there = sides_[k + 1 < n ? k + 1 : 0];
-    if (here != there) (there ? trial_.out : trial_.in) = k;
+    if (here != there) (there ? trial_->out : trial_->in) = k;
   }
-  return trial_.out >= 0 && trial_.in >= 0;
+  return trial_->out >= 0 && trial_->in >= 0;
 }
 
 bool CellAtHand::divide_crossings(const Line& line, double* clearance) {
-  clear_parts();
-  trial_.positive.resize(crossings_.size());
+  shares_.assign(curves_.size(), {});
+  crossings_in_ = {};
+  trial_->positive.resize(crossings_.size());
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const LineValue at = value_at(line, crossings_[i].place);
+    const LineValue at = value_at(line, *crossings_[i].place);
     bool positive = at.value > 0;
     if (!(std::fabs(at.value) > at.error)) {
-      const auto s = side(line, crossings_[i].place.box, partition_.kernel());
+      const auto s = side(line, crossings_[i].place->box, partition_.kernel());
       if (!s) return false;
       positive = *s == Sign::Positive;
     }
-    trial_.positive[i] = positive;
+    trial_->positive[i] = positive;
     *clearance = std::min(*clearance, std::fabs(at.value));
-    ++parts_[positive].crossings;
+    ++crossings_in_[positive];
     for (const int s : crossings_[i].slots)
-      if (s >= 0) ++parts_[positive].curves[s].crossings;
+      if (s >= 0) ++shares_[s].crossings[positive];
   }
   for (const int id : cell_->zones)
     if (const Zone& zone = partition_.zones[id];
@@ -528,38 +526,37 @@ bool CellAtHand::count_old_crossings(const Line& line) {
     *word_at = cell_->begin_of(edge) + *before;
     return true;
   };
-  if (!cut_edge(trial_.out, &trial_.vertex_out, &trial_.word_at_out) ||
-      !cut_edge(trial_.in, &trial_.vertex_in, &trial_.word_at_in))
+  if (!cut_edge(trial_->out, &trial_->vertex_out, &trial_->word_at_out) ||
+      !cut_edge(trial_->in, &trial_->vertex_in, &trial_->word_at_in))
     return false;
   // The boundary is positive from `out` to `in`.
-  const bool wraps = trial_.out > trial_.in;
+  const bool wraps = trial_->out > trial_->in;
   for (int i = 0; i < static_cast<int>(cell_->word.size()); ++i) {
-    const bool after_out = i >= trial_.word_at_out, before_in = i < trial_.word_at_in;
+    const bool after_out = i >= trial_->word_at_out, before_in = i < trial_->word_at_in;
     const bool positive = wraps ? after_out || before_in : after_out && before_in;
-    ++parts_[positive].curves[slot_[partition_.line_crossings[cell_->word[i]].curve]].ends;
+    ++shares_[slot_[partition_.line_crossings[cell_->word[i]].curve]].ends[positive];
   }
   return true;
 }
 
 bool CellAtHand::add_new_crossings(const Line& line) {
   const int axis = parameter_axis(line);
-  Interval from = trial_.vertex_out.range(axis), to = trial_.vertex_in.range(axis);
+  Interval from = trial_->vertex_out.range(axis), to = trial_->vertex_in.range(axis);
   if (!(from.hi < to.lo)) std::swap(from, to);
   if (!(from.hi < to.lo)) return false;
-  trial_.roots.clear();
+  trial_->roots.clear();
   const bool may_end = std::any_of(cell_->zones.begin(), cell_->zones.end(),
                                    [&](int id) { return partition_.zones[id].crossable; });
-  for (std::size_t s = 0; s < whole_.curves.size(); ++s) {
-    const std::size_t before = trial_.roots.size();
-    if (!partition_.isolate_between(whole_.curves[s].curve, line, from, to, kMaxNodes,
-                                    &trial_.roots))
+  for (std::size_t s = 0; s < curves_.size(); ++s) {
+    const std::size_t before = trial_->roots.size();
+    if (!partition_.isolate_between(curves_[s].curve, line, from, to, kMaxNodes, &trial_->roots))
       return false;
-    const int roots = static_cast<int>(trial_.roots.size() - before);
+    const int roots = static_cast<int>(trial_->roots.size() - before);
     if (roots > 0) add_roots(s, roots);
     // A curve enters a cell as often as it leaves it: a free check of all the above. (But it may
     // end where its function is not analytic.)
-    for (const Part& part : parts_)
-      if (part.curves[s].ends % 2 != 0 && !may_end) return false;
+    for (const int ends : shares_[s].ends)
+      if (ends % 2 != 0 && !may_end) return false;
     if (roots > 0 && is_beaten(score())) return false;
   }
   return true;
@@ -577,9 +574,9 @@ bool CellAtHand::cuts_well(const Line& line) {
 /// Proves what a line does, and keeps the cut if it is the best.
 void CellAtHand::prove(const Line& line) {
   if (!cuts_well(line)) return;
-  trial_.line = line;
-  trial_.score = score();
-  for (int k = 0; k < 2; ++k) trial_.least_cells[k] = least_cells(parts_[k]);
+  trial_->line = line;
+  trial_->score = score();
+  for (int k = 0; k < 2; ++k) trial_->least_cells[k] = least_cells(k);
   std::swap(trial_, best_);
   is_finished_ = leaves_simple_parts();
   has_cut_ = true;
@@ -590,13 +587,13 @@ bool CellAtHand::prove_best() {
     const auto next =
         std::min_element(proposals_.begin(), proposals_.end(),
                          [](const Proposal& a, const Proposal& b) { return a.score < b.score; });
-    if (has_cut_ && !(next->score < best_.score - kTie)) break;
+    if (has_cut_ && !(next->score < best_->score - kTie)) break;
     if (!next->sampled && weigh(HUGE_VAL, &*next)) continue;
     prove(next->line);
     proposals_.erase(next);
   }
   proposals_.clear();
-  best_score_ = has_cut_ ? best_.score : HUGE_VAL;
+  best_score_ = has_cut_ ? best_->score : HUGE_VAL;
   seems_finished_ = has_cut_ && is_finished_;
   return has_cut_;
 }

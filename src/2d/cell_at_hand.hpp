@@ -10,12 +10,21 @@
 
 namespace encase {
 
+/// The branches of some curves in a part of a cell.
+struct Branches {
+  int curves = 0;    ///< with branches
+  int count = 0;     ///< of branches
+  double cells = 0;  ///< what they add to the cells to be expected
+};
+
 /// The open cell that is being worked on, with what trying lines on it needs again and again, the
 /// lines proposed for it and the cut that was proved. One object serves all cells in turn: once its
 /// arrays have grown, neither a cell nor a line costs an allocation.
 class CellAtHand {
  public:
   explicit CellAtHand(Partition& partition);
+  CellAtHand(const CellAtHand&) = delete;
+  CellAtHand& operator=(const CellAtHand&) = delete;
 
   /// Turns to another cell, which must outlive this use.
   void take(const OpenCell& cell);
@@ -32,7 +41,7 @@ class CellAtHand {
     int ends = 0;       ///< crossings with the boundary
     int crossings = 0;  ///< crossings with other curves inside
   };
-  const std::vector<Presence>& curves() const { return whole_.curves; }
+  const std::vector<Presence>& curves() const { return curves_; }
 
   /// The curve that crosses the boundary at a place of the cell's word.
   int curve_at(int place) const { return partition_.line_crossings[cell_->word[place]].curve; }
@@ -44,7 +53,10 @@ class CellAtHand {
     Point<2> at;
     Point<2> normal;  ///< unit gradient
   };
-  const std::vector<BoundaryPoint>& points() const { return points_; }
+  const std::vector<BoundaryPoint>& points() {
+    if (points_.empty()) find_points();
+    return points_;
+  }
 
   /// The values and gradients of points' curves, about.
   void values_and_gradients(const std::array<BoundaryPoint, 16>& points,
@@ -58,7 +70,10 @@ class CellAtHand {
   int sketches() const { return last_sketches_; }
 
   /// The cells to be expected of the whole cell.
-  double expected_cells() const { return expected_cells_; }
+  double expected_cells() {
+    prepare();
+    return expected_cells_;
+  }
 
   /// Notes a line that seems to cut the cell. How many roots the curves have on it is only guessed,
   /// from some values of their polynomials.
@@ -81,14 +96,14 @@ class CellAtHand {
     return has_cut_;
   }
   bool has_cut() const { return has_cut_; }
-  Cut& cut() { return best_; }
+  Cut& cut() { return *best_; }
   /// Forgets the lines proposed and the best cut.
   void start_again();
 
  private:
-  struct Part {
-    std::vector<Presence> curves;
-    int crossings = 0;
+  /// What a line leaves of a curve, or of all, on its negative and its positive side.
+  struct Shares {
+    std::array<int, 2> ends{}, crossings{};
   };
   /// Sketches of the curves over a box, made when they are first asked for.
   struct Sketches {
@@ -99,16 +114,8 @@ class CellAtHand {
     std::vector<Sketch> sketches;  ///< at least as many
     bool serve = true;             ///< all that have been asked for
   };
-  /// The branches of some curves in a part.
-  struct Branches {
-    int curves = 0;    ///< with branches
-    int count = 0;     ///< of branches
-    double cells = 0;  ///< what they add to the cells to be expected
-    void add(const Presence& presence);
-    void remove(const Presence& presence);
-  };
   struct InnerCrossing {
-    Place place;
+    const Place* place;
     std::array<int, 2> slots;  // of its curves
   };
   struct Proposal {
@@ -116,18 +123,15 @@ class CellAtHand {
     double score;  ///< at least so much, if the values used do not deceive
     bool sampled;  ///< the roots on the line are in the score
   };
-  static int branches_of(const Presence& presence);
-  static bool is_simple(const Part& part);
-  bool leaves_simple_parts() const;
+  bool is_simple(int part) const;
+  bool leaves_simple_parts() const { return is_simple(0) && is_simple(1); }
   static double expected_cells(int crossings, const Branches& branches);
-  static double expected_cells(const Part& part);
-  static int least_cells(const Part& part);
-  void clear_parts();
+  int least_cells(int part) const;
   void find_curves();
   void find_points();
+  void find_crossings();
   void prepare();
   void mark();
-  double score(double negative, double positive) const;
   double score() const;
   void count_branches();
   void add_roots(std::size_t slot, int roots);
@@ -151,11 +155,13 @@ class CellAtHand {
   Partition& partition_;
   const OpenCell* cell_ = nullptr;
   const std::vector<Line>* avoided_ = nullptr;
-  Part whole_;
-  std::array<Part, 2> parts_;
-  std::array<Branches, 2> branches_;  // of all curves, in either part
-  std::vector<int> slot_;             // of every curve, among those present; -1 for others
+  std::vector<Presence> curves_;
+  std::vector<int> slot_;  // of every curve, among those present; -1 for others
   std::vector<InnerCrossing> crossings_;
+  // What the line that is tried leaves in either part.
+  std::vector<Shares> shares_;  // of the curve of each slot
+  std::array<int, 2> crossings_in_{};
+  std::array<Branches, 2> branches_;  // of all curves
   // The vertices, the crossings and the points on the boundary; groups: all crossings, and of each
   // slot the crossings and the points. Of many curves these groups would be large and sparse: then
   // there is only the first, and what is on the positive side is counted mark by mark.
@@ -178,7 +184,8 @@ class CellAtHand {
   std::vector<Proposal> proposals_;
   double best_score_ = HUGE_VAL;
   bool seems_finished_ = false;
-  Cut trial_, best_;
+  std::array<Cut, 2> cuts_;
+  Cut *trial_ = &cuts_[0], *best_ = &cuts_[1];
   bool has_cut_ = false, is_finished_ = false;
 };
 

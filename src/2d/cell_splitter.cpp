@@ -107,33 +107,49 @@ bool CellSplitter::find_cut(CellState* settled) {
   return false;
 }
 
-/// Finishes the next cell, or puts its halves on top of the open ones.
+std::unique_ptr<OpenCell> CellSplitter::spare_cell() {
+  if (spare_.empty()) return std::make_unique<OpenCell>(partition_.memory());
+  std::unique_ptr<OpenCell> cell = std::move(spare_.back());
+  spare_.pop_back();
+  return cell;
+}
+
 void CellSplitter::process_next() {
   if (!work_) work_ = std::make_unique<Work>(partition_, task_.options.fast);
-  const OpenCell cell = std::move(open_.back());
+  std::unique_ptr<OpenCell> cell = std::move(open_.back());
   open_.pop_back();
+  process(*cell);
+  spare_.push_back(std::move(cell));
+}
+
+/// Finishes a cell, or puts its halves on top of the open ones.
+void CellSplitter::process(const OpenCell& cell) {
   CellState settled = CellState::Undecided;
   certificates_.clear();
   work_->at_hand.take(cell);
   if (cell.parent < 0) work_->at_hand.avoid(avoided_);
   bool repeated = repeat_cut();
-  bool found = repeated || find_cut(&settled);
-  OpenCell negative(partition_.memory()), positive(partition_.memory());
-  // If the order of the roots on the line cannot be proved: any other line.
-  if (found && !partition_.apply(cell, &work_->at_hand.cut(), &negative, &positive)) {
-    settled = CellState::Undecided;
-    repeated = false;
-    found = work_->lines.find_any() &&
-            partition_.apply(cell, &work_->at_hand.cut(), &negative, &positive);
-  }
+  const bool found = repeated || find_cut(&settled);
   if (!found) {
     finish(cell, settled);
     return;
   }
+  std::unique_ptr<OpenCell> negative = spare_cell(), positive = spare_cell();
+  const auto apply = [&] {
+    return partition_.apply(cell, &work_->at_hand.cut(), negative.get(), positive.get());
+  };
+  if (!apply()) {
+    // The order of the roots on the line cannot be proved: any other line.
+    repeated = false;
+    if (!work_->lines.find_any() || !apply()) {
+      finish(cell, CellState::Undecided);
+      return;
+    }
+  }
   ++splits;
-  negative.sketches = positive.sketches = work_->at_hand.sketches();
+  negative->sketches = positive->sketches = work_->at_hand.sketches();
   if (repeated)
-    std::tie(negative.earlier_cut, positive.earlier_cut) =
+    std::tie(negative->earlier_cut, positive->earlier_cut) =
         task_.earlier.next_cuts(cell.earlier_cut);
   open_.push_back(std::move(positive));
   open_.push_back(std::move(negative));
@@ -161,8 +177,8 @@ void CellSplitter::run(int most_cells) {
 /// lies on two branches, for each branch beyond.
 int CellSplitter::least_to_come() const {
   std::size_t least = 0;
-  for (const OpenCell& cell : open_) {
-    const std::size_t crossings = cell.crossings.size(), branches = cell.word.size() / 2;
+  for (const auto& cell : open_) {
+    const std::size_t crossings = cell->crossings.size(), branches = cell->word.size() / 2;
     least +=
         std::max<std::size_t>(1, std::max(crossings, branches - std::min(branches, crossings)));
   }
@@ -175,7 +191,7 @@ void CellSplitter::run_below(int bound) {
 
 void CellSplitter::rest() {
   work_.reset();
-  for (OpenCell& cell : open_) cell.sketches = -1;
+  for (const auto& cell : open_) cell->sketches = -1;
 }
 
 bool CellSplitter::halve() {
@@ -184,15 +200,15 @@ bool CellSplitter::halve() {
 }
 
 std::vector<OpenCell> CellSplitter::hand_over() {
-  std::vector<OpenCell> handed_over = std::exchange(open_, {});
-  std::reverse(handed_over.begin(), handed_over.end());
   rest();
+  std::vector<OpenCell> handed_over;
+  for (; has_open(); open_.pop_back()) handed_over.push_back(std::move(*open_.back()));
   return handed_over;
 }
 
 void CellSplitter::give_up() {
   certificates_.clear();
-  for (; has_open(); open_.pop_back()) finish(open_.back(), CellState::Undecided);
+  for (; has_open(); open_.pop_back()) finish(*open_.back(), CellState::Undecided);
 }
 
 void CellSplitter::finish(const OpenCell& open, CellState state) {

@@ -28,7 +28,7 @@ class CellSplitter {
  public:
   CellSplitter(Partition& partition, const SplittingTask& task);
 
-  void add(OpenCell cell) { open_.push_back(std::move(cell)); }
+  void add(OpenCell cell) { open_.push_back(std::make_unique<OpenCell>(std::move(cell))); }
   bool has_open() const { return !open_.empty(); }
   /// The first cell is not to be split by any of these lines.
   void avoid_at_first(std::vector<Line> lines) { avoided_ = std::move(lines); }
@@ -60,6 +60,8 @@ class CellSplitter {
   enum class Shape { Simple, Relaxable, Complex };
   Shape shape_of_cell() const;
   void process_next();
+  void process(const OpenCell& cell);
+  std::unique_ptr<OpenCell> spare_cell();
   template <class Condition>
   void run_while(Condition condition);
   int least_to_come() const;
@@ -79,10 +81,11 @@ class CellSplitter {
   Partition& partition_;
   const SplittingTask& task_;
   std::unique_ptr<Work> work_;
-  std::vector<OpenCell> open_;                 // the next one last
-  std::vector<LoopCertificate> certificates_;  // of the cell at hand
-  std::vector<Line> avoided_;                  // by the first cell
-  std::int64_t count_ = 0;                     // of cells taken up
+  std::vector<std::unique_ptr<OpenCell>> open_;   // the next one last
+  std::vector<std::unique_ptr<OpenCell>> spare_;  // done with: their arrays serve others
+  std::vector<LoopCertificate> certificates_;     // of the cell at hand
+  std::vector<Line> avoided_;                     // by the first cell
+  std::int64_t count_ = 0;                        // of cells taken up
 };
 
 }  // namespace encase

@@ -92,6 +92,9 @@ CriticalRegions critical_regions(TiledFunction& f, int curve, const Box<2>& root
   const std::vector<Box<2>> boxes =
       leaves_with(result.root_box, result.tokens, [](int token) { return token >= 0; });
   const std::vector<int> component = connected_components(boxes);
+  if (!component.empty())
+    result.regions.reserve(
+        1 + static_cast<std::size_t>(*std::max_element(component.begin(), component.end())));
   std::size_t next = 0;
   for (int& token : result.tokens) {
     if (token < 0) continue;

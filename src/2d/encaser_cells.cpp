@@ -76,7 +76,9 @@ void Encaser::split_cells() {
 void Encaser::split_whole(const SplittingTask& task, CellSplitter* result) {
   OpenCell whole(partition_->memory());
   if (!options_.fast) whole = first_cell_;
-  result->cells.reserve(2 * features_.crossings.size() + 16);
+  const std::size_t expected = 2 * features_.crossings.size() + 16;
+  result->cells.reserve(expected);
+  partition_->reserve(expected);
   result->add(std::move(first_cell_));
   run_out(result, options_.max_cells);
   const int enough = enough_cells(result->cells);

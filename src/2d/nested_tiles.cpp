@@ -35,6 +35,18 @@ Box<2> inner_box(const Box<2>& box, const Point<2>& middle) {
 
 }  // namespace
 
+Box<2> box_on_line(const Line& line, double from, double to) {
+  const int p = parameter_axis(line), q = 1 - p;
+  Box<2> box;
+  box.lo[p] = from;
+  box.hi[p] = to;
+  const double slope = -line.normal[p] / line.normal[q], base = -line.offset / line.normal[q],
+               a = base + slope * from, b = base + slope * to;
+  box.lo[q] = std::min(a, b);
+  box.hi[q] = std::max(a, b);
+  return box;
+}
+
 NestedTiles::NestedTiles(const std::vector<FilteredFunction<2>>& polynomials,
                          std::vector<TiledFunction>& whole, const Point<2>& middle, bool nested,
                          const Kernel& kernel)

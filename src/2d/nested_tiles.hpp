@@ -11,6 +11,9 @@
 
 namespace encase {
 
+/// About the smallest box around the part of a line between two parameters.
+Box<2> box_on_line(const Line& line, double from, double to);
+
 /// Polynomials with tiles that cover a box. Where the box is so wide that around its middle the
 /// terms of high degree are large and cancel, tiles are blurred there by their own roundings; then
 /// a polynomial has also tiles that cover smaller boxes around the middle, one in the other.
@@ -30,6 +33,11 @@ class NestedTiles {
   TiledFunction& whole(int polynomial) { return whole_[index(polynomial)]; }
   /// For what happens in a part of the box: the innermost tiles that cover it.
   TiledFunction& about(int polynomial, const Box<2>& part);
+  /// For what happens on a part of a line.
+  TiledFunction& about(int polynomial, const Line& line, double from, double to) {
+    if (inner_[index(polynomial)].empty()) return whole(polynomial);
+    return about(polynomial, box_on_line(line, from, to));
+  }
   /// Whether there are none inside these.
   bool is_innermost(int polynomial, const TiledFunction& tiles) const {
     const std::vector<TiledFunction>& inner = inner_[index(polynomial)];

@@ -27,6 +27,7 @@ bool clear_of(TiledFunction& f, const Line& line, const Interval& vertex, LineRo
 Partition::Partition(const std::vector<FilteredFunction<2>>& curves, NestedTiles& tiles,
                      Features& features, Kernel& kernel)
     : crossings(features.crossings),
+      crossing_places(features.crossing_places),
       critical_regions(features.critical_regions),
       zones(features.zones),
       saddles(features.saddles),
@@ -47,7 +48,7 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
       if (a.root.hi == b.root.lo && a.curve == b.curve) continue;
       disjoint = false;
       for (Cut::Root* r : {&a, &b}) {
-        TiledFunction& f = tiles_.about(r->curve, box_on_line(line, r->root.lo, r->root.hi));
+        TiledFunction& f = tiles_.about(r->curve, line, r->root.lo, r->root.hi);
         if (!refine_on_line(f, line, &r->root, kernel_)) return false;
       }
     }
@@ -60,11 +61,11 @@ bool Partition::order_on_line(const Line& line, std::vector<Cut::Root>* roots) {
 bool Partition::isolate_in_parts(int curve, const Line& line, double from, double to,
                                  int max_nodes) {
   const auto isolate = [&](double lo, double hi) {
-    TiledFunction& f = tiles_.about(curve, box_on_line(line, lo, hi));
+    TiledFunction& f = tiles_.about(curve, line, lo, hi);
     return isolate_on_line(f, line, lo, hi, max_nodes, kernel_, &found_);
   };
   stops_.clear();
-  TiledFunction& whole = tiles_.about(curve, box_on_line(line, from, to));
+  TiledFunction& whole = tiles_.about(curve, line, from, to);
   if (!tiles_.is_innermost(curve, whole)) tiles_.append_stops(curve, line, from, to, &stops_);
   if (stops_.empty()) return isolate_on_line(whole, line, from, to, max_nodes, kernel_, &found_);
   stops_.push_back(to);
@@ -85,7 +86,7 @@ bool Partition::isolate_between(int curve, const Line& line, const Interval& fro
   found_.clear();
   if (!isolate_in_parts(curve, line, from.lo, to.hi, max_nodes)) return false;
   if (found_.empty()) return true;
-  TiledFunction& f = tiles_.about(curve, box_on_line(line, from.lo, to.hi));
+  TiledFunction& f = tiles_.about(curve, line, from.lo, to.hi);
   for (LineRoot& root : found_) {
     // The vertices must be free of the curve: no root in their enclosures.
     if (!clear_of(f, line, from, &root, kernel_) || !clear_of(f, line, to, &root, kernel_) ||
@@ -141,8 +142,10 @@ void Partition::fill(OpenCell* cell) {
     return std::all_of(cell->edges.begin(), cell->edges.end(),
                        [&](const OpenCell::Edge& edge) { return holds(lines[edge.line]); });
   };
+  crossing_places.clear();
+  crossing_places.reserve(crossings.size());
   for (std::size_t k = 0; k < crossings.size(); ++k) {
-    const Place place(crossings[k].box);
+    const Place& place = crossing_places.emplace_back(crossings[k].box);
     if (all_sides([&](const Line& line) { return side(line, place, kernel_) == Sign::Negative; }))
       cell->crossings.push_back(static_cast<int>(k));
     else
@@ -159,6 +162,14 @@ void Partition::fill(OpenCell* cell) {
   for (std::size_t k = 0; k < saddles.size(); ++k)
     if (all_sides([&](const Line& line) { return height(line, saddles[k].at) < 0; }))
       cell->saddles.push_back(static_cast<int>(k));
+}
+
+void Partition::reserve(std::size_t cuts) {
+  constexpr std::size_t kCrossingsPerCut = 3;
+  lines.reserve(lines.size() + cuts);
+  line_crossings.reserve(line_crossings.size() + kCrossingsPerCut * cuts);
+  spots_.reserve(spots_.size() + kCrossingsPerCut * cuts);
+  history.reserve(cuts);
 }
 
 void Partition::forget_cuts(const OpenCell& opened) {
@@ -235,7 +246,7 @@ std::optional<int> Partition::crossings_before(const OpenCell& cell, int edge,
   for (int i = cell.begin_of(edge); i < e.end; ++i) {
     LineCrossing& c = line_crossings[cell.word[i]];
     LineRoot root{c.lo, c.hi, spots_[cell.word[i]].parameter};
-    TiledFunction& f = tiles_.about(c.curve, box_on_line(line, c.lo, c.hi));
+    TiledFunction& f = tiles_.about(c.curve, line, c.lo, c.hi);
     if (!clear_of(f, line, parameter, &root, kernel_)) return std::nullopt;
     c.lo = root.lo;
     c.hi = root.hi;
@@ -267,22 +278,21 @@ ValueAndGradient value_and_gradient(TiledFunction& f, const Point<2>& at) {
   return {value, {slope_0 * scale[0], slope_1 * scale[1]}};
 }
 
-Box<2> box_on_line(const Line& line, double from, double to) {
-  const int p = parameter_axis(line), q = 1 - p;
-  Box<2> box;
-  box.lo[p] = from;
-  box.hi[p] = to;
-  const double slope = -line.normal[p] / line.normal[q], base = -line.offset / line.normal[q],
-               a = base + slope * from, b = base + slope * to;
-  box.lo[q] = std::min(a, b);
-  box.hi[q] = std::max(a, b);
-  return box;
-}
-
 Box<2> bounds_of(const OpenCell& cell) {
   Box<2> bounds{cell.vertices[0].center, cell.vertices[0].center};
   for (const Place& v : cell.vertices) bounds = hull(bounds, Box<2>{v.center, v.center});
   return bounds;
+}
+
+void OpenCell::clear() {
+  edges.clear();
+  vertices.clear();
+  word.clear();
+  crossings.clear();
+  critical_regions.clear();
+  zones.clear();
+  saddles.clear();
+  earlier_cut = sketches = -1;
 }
 
 std::optional<Sign> Partition::side_of(const CriticalRegion& region, const Line& line) {
@@ -301,24 +311,29 @@ void Partition::build_child(const OpenCell& cell, const Cut& cut, int first_root
   const int begin = positive ? cut.out : cut.in, end = positive ? cut.in : cut.out;
   const int word_begin = positive ? cut.word_at_out : cut.word_at_in;
   const int word_end = positive ? cut.word_at_in : cut.word_at_out;
-  const int n = cell.size(), edges = (end - begin + n) % n + 2;
+  const int n = cell.size(), word_size = static_cast<int>(cell.word.size());
+  const auto word_at = [&](int place) { return cell.word.begin() + place; };
   const int count = static_cast<int>(cut.roots.size());
-  child->edges.reserve(edges);
-  child->vertices.reserve(edges);
-  child->word.reserve(cell.word.size() + count);
+  child->edges.reserve(cell.edges.size() + 2);
+  child->vertices.reserve(cell.vertices.size() + 2);
+  child->word.reserve(cell.word.size() + cut.roots.size());
   child->vertices.push_back(positive ? cut.vertex_out : cut.vertex_in);
-  const auto take_edge = [&](int k, int from, int to) {
-    child->word.insert(child->word.end(), cell.word.begin() + from, cell.word.begin() + to);
-    child->edges.push_back(
-        {cell.edges[k].line, cell.edges[k].positive, static_cast<int>(child->word.size())});
-  };
-  take_edge(begin, word_begin, cell.edges[begin].end);
-  for (int k = (begin + 1) % n; k != end; k = (k + 1) % n) {
-    child->vertices.push_back(cell.vertices[k]);
-    take_edge(k, cell.begin_of(k), cell.edges[k].end);
+  int before = -word_begin;  // crossings of the child's word before the first one of the cell's
+  for (int k = begin; k != end; child->vertices.push_back(cell.vertices[k])) {
+    const OpenCell::Edge& edge = cell.edges[k];
+    child->edges.push_back({edge.line, edge.positive, before + edge.end});
+    if (++k < n) continue;
+    k = 0;
+    before += word_size;
   }
-  child->vertices.push_back(cell.vertices[end]);
-  take_edge(end, cell.begin_of(end), word_end);
+  const OpenCell::Edge& last = cell.edges[end];
+  child->edges.push_back({last.line, last.positive, before + word_end});
+  if (begin < end) {
+    child->word.assign(word_at(word_begin), word_at(word_end));
+  } else {
+    child->word.assign(word_at(word_begin), cell.word.end());
+    child->word.insert(child->word.end(), cell.word.begin(), word_at(word_end));
+  }
   child->vertices.push_back(positive ? cut.vertex_in : cut.vertex_out);
   const bool ascending = parameter_grows(cut.line, positive);
   for (int i = 0; i < count; ++i)
@@ -328,8 +343,13 @@ void Partition::build_child(const OpenCell& cell, const Cut& cut, int first_root
 
   child->depth = cell.depth + 1;
   child->parent = static_cast<int>(history.size());
-  for (std::size_t i = 0; i < cell.crossings.size(); ++i)
-    if ((cut.positive[i] != 0) == positive) child->crossings.push_back(cell.crossings[i]);
+  child->crossings.resize(cell.crossings.size());
+  auto next = child->crossings.begin();
+  for (std::size_t i = 0; i < cell.crossings.size(); ++i) {
+    *next = cell.crossings[i];
+    next += (cut.positive[i] != 0) == positive;  // a branch could not be foreseen
+  }
+  child->crossings.erase(next, child->crossings.end());
   const int least = cut.least_cells[positive];
   child->least_cells = std::min(least, cell.least_cells);
   child->stall = least < cell.least_cells ? 0 : cell.stall + 1;
@@ -341,9 +361,11 @@ bool Partition::apply(const OpenCell& cell, Cut* cut, OpenCell* negative, OpenCe
             first_root = static_cast<int>(line_crossings.size());
   lines.push_back(cut->line);
   add_line_crossings(id, cut->roots);
-  negative->positive = false;
-  positive->positive = true;
-  for (OpenCell* child : {negative, positive}) build_child(cell, *cut, first_root, child);
+  for (OpenCell* child : {negative, positive}) {
+    child->clear();
+    child->positive = child == positive;
+    build_child(cell, *cut, first_root, child);
+  }
   // A critical region that the line meets is inside neither child nor any cell below.
   for (const int k : cell.critical_regions)
     if (const auto s = side_of(critical_regions[k], cut->line))

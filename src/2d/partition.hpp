@@ -52,6 +52,8 @@ struct OpenCell {
   int earlier_cut = -1;  ///< of the EarlierEncasement, that cut the same cell; -1 for none
   int sketches = -1;     ///< those of `CellAtHand` that were made for an ancestor; -1 for none
 
+  /// Becomes another cell, with nothing in it yet. The arrays keep their memory.
+  void clear();
   int size() const { return static_cast<int>(edges.size()); }
   int begin_of(int edge) const { return edge == 0 ? 0 : edges[edge - 1].end; }
 };
@@ -94,6 +96,7 @@ struct Saddle {
 /// different parts of a region share it; of a crossing they change the cell that holds it.
 struct Features {
   std::vector<Crossing> crossings;
+  std::vector<Place> crossing_places;  ///< of their boxes; made by `Partition::fill`
   std::vector<CriticalRegion> critical_regions;
   std::vector<Zone> zones;
   std::vector<Saddle> saddles;  ///< those with the nearest branches first
@@ -108,6 +111,7 @@ class Partition {
   std::vector<Line> lines;
   std::vector<LineCrossing> line_crossings;
   std::vector<Crossing>& crossings;
+  std::vector<Place>& crossing_places;
   std::vector<CriticalRegion>& critical_regions;
   std::vector<Zone>& zones;
   std::vector<Saddle>& saddles;
@@ -124,6 +128,9 @@ class Partition {
   std::optional<OpenCell> open(const std::vector<Line>& sides);
   /// Gives the opened cell the crossings, critical regions, zones and saddles inside it.
   void fill(OpenCell* cell);
+
+  /// Makes room for what so many cuts add, about.
+  void reserve(std::size_t cuts);
 
   /// Forgets all cuts of the opened cell.
   void forget_cuts(const OpenCell& opened);
@@ -183,9 +190,6 @@ struct ValueAndGradient {
   Point<2> gradient;
 };
 ValueAndGradient value_and_gradient(TiledFunction& f, const Point<2>& at);
-
-/// About the smallest box around the part of a line between two parameters.
-Box<2> box_on_line(const Line& line, double from, double to);
 
 /// The smallest box around the centres of a cell's vertices.
 Box<2> bounds_of(const OpenCell& cell);

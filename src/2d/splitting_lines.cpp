@@ -5,12 +5,15 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 namespace encase {
 namespace {
 
 constexpr double kMiddle = 0.35;     // where the middle of the projections begins
 constexpr int kMostProjected = 256;  // crossings; of more every other, every third, and so on
+constexpr int kFewProjected = 8;     // which are sorted as a whole
 // Of more than two curves: crossings from which on a cell is halved whatever the branches of one
 // curve do.
 constexpr int kManyCrossings = 16;
@@ -86,12 +89,15 @@ Line line_through(const Point<2>& point, const Point<2>& normal) {
 }
 
 void SplittingLines::keep_closest(std::size_t count) {
-  count = std::min(count, pairs_.size());
-  std::partial_sort(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(count),
-                    pairs_.end(), [](const Pair& p, const Pair& q) {
-                      return p.gap != q.gap ? p.gap < q.gap : p.a != q.a ? p.a < q.a : p.b < q.b;
-                    });
-  pairs_.resize(count);
+  const auto is_closer = [](const Pair& p, const Pair& q) {
+    return p.gap != q.gap ? p.gap < q.gap : p.a != q.a ? p.a < q.a : p.b < q.b;
+  };
+  if (count < pairs_.size()) {
+    std::nth_element(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(count),
+                     pairs_.end(), is_closer);
+    pairs_.resize(count);
+  }
+  std::sort(pairs_.begin(), pairs_.end(), is_closer);
 }
 
 SplittingLines::SplittingLines(CellAtHand& cell, bool fast)
@@ -104,6 +110,35 @@ bool SplittingLines::is_good_enough() {
   return seems_good() && cell_.prove_best() && seems_good();
 }
 
+/// The widest gap in the middle of the projections of the crossings at hand.
+SplittingLines::Gap SplittingLines::widest_gap(const Point<2>& direction) {
+  const int last_place = static_cast<int>(projected_.size()) - 1;
+  const int from = static_cast<int>(kMiddle * last_place);
+  const int to = std::max(from + 1, static_cast<int>(std::ceil((1 - kMiddle) * last_place)));
+  projections_.clear();
+  for (const Point<2>& at : projected_) projections_.push_back(dot(at, direction));
+  if (last_place < kFewProjected) {
+    // Their order cannot be foreseen: without branches.
+    for (int i = 1; i <= last_place; ++i)
+      for (int k = i; k > 0; --k) {
+        double &below = projections_[k - 1], &above = projections_[k];
+        std::tie(below, above) = std::pair(std::min(below, above), std::max(below, above));
+      }
+  } else {
+    // Only the middle has to be in order.
+    const auto first = projections_.begin() + from, last = projections_.begin() + to;
+    std::nth_element(projections_.begin(), first, projections_.end());
+    std::nth_element(first, last, projections_.end());
+    std::sort(first, last);
+  }
+  int best = from;
+  for (int i = from; i < to; ++i)
+    if (projections_[i + 1] - projections_[i] > projections_[best + 1] - projections_[best])
+      best = i;
+  const double below = projections_[best], above = projections_[best + 1];
+  return {direction, above - below, 0.5 * (below + above)};
+}
+
 void SplittingLines::propose_between_crossings() {
   const auto& crossings = cell_.cell().crossings;
   const int n = static_cast<int>(crossings.size());
@@ -111,25 +146,18 @@ void SplittingLines::propose_between_crossings() {
   const auto point = [&](int i) -> const Point<2>& {
     return partition_.crossings[crossings[i]].point;
   };
-  // The largest gap in the middle of the projections, in four directions.
-  const int step = (n + kMostProjected - 1) / kMostProjected, last_place = (n - 1) / step;
-  const int from = static_cast<int>(kMiddle * last_place);
-  const int to = std::max(from + 1, static_cast<int>(std::ceil((1 - kMiddle) * last_place)));
-  for (const Point<2>& d :
-       {Point<2>{1, 0}, Point<2>{0, 1}, Point<2>{0.7071, 0.7072}, Point<2>{0.7072, -0.7071}}) {
-    projections_.clear();
-    for (int i = 0; i < n; i += step) projections_.push_back(dot(point(i), d));
-    // Only the middle has to be in order.
-    const auto first = projections_.begin() + from, last = projections_.begin() + to;
-    std::nth_element(projections_.begin(), first, projections_.end());
-    std::nth_element(first, last, projections_.end());
-    std::sort(first, last);
-    int best = from;
-    for (int i = from; i < to; ++i)
-      if (projections_[i + 1] - projections_[i] > projections_[best + 1] - projections_[best])
-        best = i;
-    const double at = 0.5 * (projections_[best] + projections_[best + 1]);
-    cell_.propose(line_through({at * d[0], at * d[1]}, d));
+  projected_.clear();
+  const int step = (n + kMostProjected - 1) / kMostProjected;
+  for (int i = 0; i < n; i += step) projected_.push_back(point(i));
+  std::array<Gap, 4> gaps{widest_gap({1, 0}), widest_gap({0, 1}), widest_gap({0.7071, 0.7072}),
+                          widest_gap({0.7072, -0.7071})};
+  // The first line that is not bad will do: the most promising one first.
+  if (fast_)
+    std::sort(gaps.begin(), gaps.end(),
+              [](const Gap& a, const Gap& b) { return a.width > b.width; });
+  for (const Gap& gap : gaps) {
+    const Point<2>& d = gap.direction;
+    cell_.propose(line_through({gap.middle * d[0], gap.middle * d[1]}, d));
     if (is_good_enough()) return;
   }
   if (n > kMaxBisected) return;

@@ -30,10 +30,16 @@ class SplittingLines {
     int a, b;
     double gap;  ///< squared
   };
+  /// Between neighbours among projections on a direction.
+  struct Gap {
+    Point<2> direction;
+    double width, middle;
+  };
   bool of_many() const { return cell_.curves().size() > 2; }
   void keep_closest(std::size_t count);
   bool seems_to_save(double cells) const;
   bool is_good_enough();
+  Gap widest_gap(const Point<2>& direction);
   void propose_between_crossings();
   void propose_through_saddles(int curve);
   void propose_between_branches();
@@ -53,6 +59,7 @@ class SplittingLines {
   const bool fast_;
   std::vector<Pair> pairs_;
   std::array<BoundaryPoint, 16> approached_;  // the first points of the pairs, then the second
+  std::vector<Point<2>> projected_;
   std::vector<double> projections_;
 };
 

@@ -25,8 +25,8 @@ HWY_INLINE std::uint32_t positive_lanes(const Row& row) {
   return result;
 }
 
-/// Bit k: the value at the point s + k ds, t + k dt is positive.
-std::uint32_t positive_along(const Sketch& f, double s, double ds, double t, double dt) {
+/// How often the signs of the values at the 16 points s + k ds, t + k dt change.
+int sign_changes_along(const Sketch& f, double s, double ds, double t, double dt) {
   HWY_ALIGN static constexpr double kNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                     8, 9, 10, 11, 12, 13, 14, 15};
   const Row low = Row::load(kNumbers), high = Row::load(kNumbers + 8);
@@ -45,7 +45,8 @@ std::uint32_t positive_along(const Sketch& f, double s, double ds, double t, dou
     sum0 = sum0 * t0 + inner0;
     sum1 = sum1 * t1 + inner1;
   }
-  return positive_lanes(sum0) | positive_lanes(sum1) << 8;
+  const std::uint32_t positive = positive_lanes(sum0) | positive_lanes(sum1) << 8;
+  return std::popcount((positive ^ (positive >> 1)) & ((1u << (Sketch::kLanes - 1)) - 1));
 }
 
 HWY_INLINE void slopes_of_row(const Sketch& f, const double* s, const double* t, double* values,
@@ -77,20 +78,23 @@ void slopes_at(const Sketch& f, const double* s, const double* t, SketchSlopes* 
 /// Rows of 16 coefficients, in powers of one variable, for each power of the other.
 using Rows = std::array<std::array<double, Tile::kRow>, Tile::kRow>;
 
-/// p(s) -> p(origin + half s), where row i holds the coefficients of s^i, n - i + 1 of them.
+/// p(s) -> p(origin + half s), where row i holds the coefficients of s^i, n - i + 1 of them and
+/// zeros. If `is_short`, n < 8.
+template <bool is_short>
 HWY_INLINE void shift(Rows& a, int n, double origin, double half) {
   const Row by = Row::all(origin);
   // Synthetic division, by the antidiagonals of its table: the steps of one do not wait for each
   // other.
   for (int level = 0; level < n; ++level)
     for (int i = n - 1 - level; i < n; ++i)
-      for (int k = 0; k < n - i; k += 8)
+      for (int k = 0; k < (is_short ? 8 : n - i); k += 8)
         (Row::load(&a[i][k]) + by * Row::load(&a[i + 1][k])).store(&a[i][k]);
   double power = 1;
   for (int i = 1; i <= n; ++i) {
     power *= half;
     const Row factor = Row::all(power);
-    for (int k = 0; k <= n - i; k += 8) (Row::load(&a[i][k]) * factor).store(&a[i][k]);
+    for (int k = 0; k <= (is_short ? 7 : n - i); k += 8)
+      (Row::load(&a[i][k]) * factor).store(&a[i][k]);
   }
 }
 
@@ -120,9 +124,15 @@ void fill_sketch(const Tile& tile, const double* origin, const double* half, Ske
   const int size = n < 8 ? 8 : Tile::kRow;
   for (int i = 0; i < size; ++i)
     for (int k = 0; k < size; k += 8) Row::load(&tile.a[i][k]).store(&a[i][k]);
-  shift(a, n, origin[0], half[0]);
-  transpose_rows(a, n);
-  shift(a, n, origin[1], half[1]);
+  if (n < 8) {
+    shift<true>(a, n, origin[0], half[0]);
+    transpose_rows(a, n);
+    shift<true>(a, n, origin[1], half[1]);
+  } else {
+    shift<false>(a, n, origin[0], half[0]);
+    transpose_rows(a, n);
+    shift<false>(a, n, origin[1], half[1]);
+  }
   // The sizes of the terms of each degree.
   HWY_ALIGN double sizes[32] = {};
   for (int j = 0; j <= n; ++j)
@@ -149,7 +159,8 @@ void divide_points(const PointGroups& points, const double* line, int near, doub
   const PointGroups::Bits* member = points.member.data();
   for (int word = 0; word < size; word += 64) {
     PointGroups::Bits above = 0;
-    for (int k = word; k < std::min(word + 64, size); k += 8) {
+    const int end = std::min(word + 64, size);
+    for (int k = word; k < end; k += 8) {
       const Row height =
           (a * Row::load_unaligned(&points.x[k]) + b * Row::load_unaligned(&points.y[k])) + c;
       if (k < near) {
@@ -170,7 +181,7 @@ HWY_AFTER_NAMESPACE();
 namespace encase {
 namespace {
 
-HWY_EXPORT(positive_along);
+HWY_EXPORT(sign_changes_along);
 HWY_EXPORT(slopes_at);
 HWY_EXPORT(fill_sketch);
 HWY_EXPORT(divide_points);
@@ -203,27 +214,19 @@ int count_sign_changes(const Sketch& f, const Point<2>& from, const Point<2>& to
     first[i] = (from[i] - f.center[i] + 0.5 * d) * f.scale[i];
     step[i] = d * f.scale[i];
   }
-  const std::uint32_t positive =
-      HWY_DYNAMIC_DISPATCH(positive_along)(f, first[0], step[0], first[1], step[1]);
-  return std::popcount((positive ^ (positive >> 1)) & ((1u << (kSamples - 1)) - 1));
+  return HWY_DYNAMIC_DISPATCH(sign_changes_along)(f, first[0], step[0], first[1], step[1]);
 }
 
 void slopes(const Sketch& f, const Sketch::Lanes& s, const Sketch::Lanes& t, SketchSlopes* result) {
   HWY_DYNAMIC_DISPATCH(slopes_at)(f, s.data(), t.data(), result);
 }
 
-void PointGroups::clear(int group_count) {
-  x.clear();
-  y.clear();
+void PointGroups::reset(int group_count, int point_count, const Point<2>& point) {
+  const auto whole_rows = static_cast<std::size_t>((point_count + 7) / 8 * 8);
   groups = group_count;
-}
-
-void PointGroups::fill_row(const Point<2>& point) {
-  while (size() % 8 != 0) add(point);
-}
-
-void PointGroups::make_groups() {
-  member.assign(static_cast<std::size_t>((size() + 63) / 64 * groups), 0);
+  x.assign(whole_rows, point[0]);
+  y.assign(whole_rows, point[1]);
+  member.assign((whole_rows + 63) / 64 * static_cast<std::size_t>(groups), 0);
 }
 
 double divide(const PointGroups& points, const Line& line, int near, double* heights,

@@ -18,6 +18,8 @@ struct Sketch {
   static constexpr int kLanes = 16;
   using Lanes = std::array<double, kLanes>;
 
+  Sketch() {}  // leaves the coefficients to `make_sketch`
+
   Point<2> center{};
   Point<2> scale{};  ///< (point - center) * scale lies in [-1, 1] in either coordinate
   int degree = 0;
@@ -48,16 +50,13 @@ struct PointGroups {
   /// Bit k of word w of group g, in member[w * groups + g]: point 64 w + k belongs to the group.
   std::vector<Bits> member;
 
-  void clear(int group_count);
+  /// Room for so many points, in whole rows, all of which are at `point`; the groups are empty.
+  void reset(int group_count, int point_count, const Point<2>& point);
   int size() const { return static_cast<int>(x.size()); }
-  void add(const Point<2>& point) {
-    x.push_back(point[0]);
-    y.push_back(point[1]);
+  void place(int point, const Point<2>& at) {
+    x[static_cast<std::size_t>(point)] = at[0];
+    y[static_cast<std::size_t>(point)] = at[1];
   }
-  /// Adds a point until the last row is whole.
-  void fill_row(const Point<2>& point);
-  /// Room for the groups of as many points as there are; the groups are empty.
-  void make_groups();
   void join(int group, int point) {
     member[static_cast<std::size_t>(point / 64 * groups + group)] |= Bits{1} << (point % 64);
   }

@@ -212,7 +212,10 @@ Subdivision<D> subdivide(const std::array<const FilteredFunction<D>*, N>& polyno
 /// The boxes of a subdivision's leaves whose tokens are wanted, in preorder.
 template <int D, class Wanted>
 std::vector<Box<D>> leaves_with(const Box<D>& root, const std::vector<int>& tokens, Wanted wanted) {
-  std::vector<Box<D>> result, stack{root};
+  std::vector<Box<D>> result, stack;
+  result.reserve(static_cast<std::size_t>(std::count_if(tokens.begin(), tokens.end(), wanted)));
+  stack.reserve(tokens.size() < 64 ? tokens.size() : 64);
+  stack.push_back(root);
   for (const int t : tokens) {
     if (t <= cover::kSplitX && t >= cover::kSplitZ) {
       // (That the cut is exact has been seen when it was made.)

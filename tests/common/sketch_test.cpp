@@ -102,11 +102,10 @@ TEST(Sketch, IsNotMadeFarBeyondATile) {
 TEST(PointGroups, AreDividedByALine) {
   std::mt19937_64 random(1);
   PointGroups points;
-  points.clear(3);
-  for (int k = 0; k < 150; ++k) points.add({symmetric_random(random), symmetric_random(random)});
-  points.fill_row({2, 2});
-  ASSERT_EQ(points.size() % 8, 0);
-  points.make_groups();
+  points.reset(3, 150, {2, 2});
+  ASSERT_EQ(points.size(), 152);
+  for (int k = 0; k < 150; ++k)
+    points.place(k, {symmetric_random(random), symmetric_random(random)});
   for (int k = 0; k < 150; ++k) points.join(k % 7 == 0 ? 2 : k % 2, k);
   Line line;
   line.normal = {0.3, -0.8};
