@@ -62,8 +62,8 @@ ENCASE_ROW_OPERATION(least, Min)
 ENCASE_ROW_OPERATION(greatest, Max)
 #undef ENCASE_ROW_OPERATION
 
-/// a * b + c, rounded once where the processor can do that, else twice: they agree where the product
-/// is a double.
+/// a * b + c, rounded once where the processor can do that, else twice: they agree where the
+/// product is a double.
 HWY_INLINE Vector multiply_add(Vector a, Vector b, Vector c) { return hn::MulAdd(a, b, c); }
 HWY_INLINE Row multiply_add(const Row& a, const Row& b, const Row& c) {
   Row r;
