@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -69,14 +70,14 @@ class PlaneSubdivision {
     Box<2> box;
     /// The tiles that the nets come from. Their rectangles contain the box.
     std::array<const Tile*, N> tile{};
-    int expanded_at = 0;  ///< the level of the box that they were made on
     /// The part, in the box's coordinates, outside of which nothing that is sought lies. A visitor
     /// may set it; halves that do not meet it are settled as excluded.
     Box<2> part;
-    int level = 0;        ///< number of halvings
-    int splits = 0;       ///< that led here from the first box of the band
-    int opens = 0;        ///< the token of a half of which this is the first quarter, or kNone
-    bool inside = false;  ///< known to lie in all half planes
+    int expanded_at = 0;    ///< the level of the box that they were made on
+    int level = 0;          ///< number of halvings
+    int splits = 0;         ///< that led here from the first box of the band
+    std::int8_t opens = 0;  ///< the token of a half of which this is the first quarter, or kNone
+    bool inside = false;    ///< known to lie in all half planes
     bool has_net = false;
     bool excluded = false;
   };
@@ -281,24 +282,25 @@ void PlaneSubdivision<N>::go_down(Place* place, const Box<2>& box, int levels) {
 /// The node becomes its upper half, the lower one goes on top of it.
 template <int N>
 void PlaneSubdivision<N>::split_into_halves(int axis, const Box<2>* halves) {
-  const Place place = stack_[top_];
-  Node* const child[2] = {&stack_[top_ + 1], &stack_[top_]};
-  ++top_;
+  Node &upper = stack_[top_], &lower = stack_[++top_];
+  const Box<2> box = upper.box;
+  const std::array<bool, 2> missed{upper.part.lo[axis] > 0, upper.part.hi[axis] < 0};
+  static_cast<Place&>(lower) = upper;
+  Node* const child[2] = {&lower, &upper};
   for (int k = 0; k < 2; ++k) {
-    static_cast<Place&>(*child[k]) = place;
     go_down(child[k], halves[k], 1);
-    child[k]->excluded = k == 0 ? place.part.lo[axis] > 0 : place.part.hi[axis] < 0;
+    child[k]->excluded = missed[k];
     // After one halving across an axis the patches tell more than the part.
     child[k]->part.lo[axis] = -1;
     child[k]->part.hi[axis] = 1;
   }
   if constexpr (N == 1) {
-    if (place.has_net) halve(child[1]->net, axis, true, &child[0]->net, &child[1]->net);
+    if (upper.has_net) halve(upper.net, axis, true, &lower.net, &upper.net);
   } else {
-    const SystemNet* from = child[1]->net;
+    const SystemNet* from = upper.net;
     for (int k = 0; k < 2; ++k) {
       child[k]->net = &nets_[4 * child[k]->splits + k];
-      if (place.has_net && !child[k]->excluded) restrict_net(*from, place.box, child[k]);
+      if (upper.has_net && !missed[k]) restrict_net(*from, box, child[k]);
     }
   }
 }
@@ -358,7 +360,7 @@ inline bool PlaneSubdivision<2>::split_into_quarters(int axis, const Box<2>* hal
       Node& node = stack_[top_++];
       static_cast<Place&>(node) = place;
       go_down(&node, boxes[k][m], 2);
-      if (m == 0) node.opens = cover::kSplitX - other;
+      if (m == 0) node.opens = static_cast<std::int8_t>(cover::kSplitX - other);
       node.part = kWhole;
       node.net = nets + k + 2 * m;
       node.excluded = missed[m] || excluded[k + 2 * m];
