@@ -64,12 +64,18 @@ struct PairFigures {
   double newton_error = 0;  ///< how far the steps end from a certified crossing, at most
 };
 
-/// Random pairs and what was measured of them: each is measured once in a run of the program.
+/// Random pairs and what was measured of them in this run of the program. Pairs are measured in
+/// rounds, and the least of the rounds' medians counts: what else a machine does slows everything
+/// down for seconds or minutes, and never speeds anything up.
 class RandomPairs {
  public:
   explicit RandomPairs(Repetitions repetitions) : repetitions_(repetitions) {}
 
   const Repetitions& repetitions() const { return repetitions_; }
+  /// Measures the pairs of these degrees and seeds that have not been, with CGAL too if asked to:
+  /// several together, so that their rounds are some time apart.
+  void measure(const std::vector<int>& degrees, const std::vector<std::uint64_t>& seeds,
+               int cgal_degrees);
   const PairFigures& ours(int degree, std::uint64_t seed);
   const Stages& stages(int degree, std::uint64_t seed);
   /// Requires that the program was built with CGAL.
@@ -79,6 +85,10 @@ class RandomPairs {
 
  private:
   using Key = std::pair<int, std::uint64_t>;
+  int rounds() const;
+  void measure_ours(const std::vector<Key>& pairs);
+  void measure_cgal(const std::vector<Key>& pairs);
+  CgalFigures cgal_once(const Key& key) const;
   Repetitions repetitions_;
   std::map<Key, PairFigures> ours_;
   std::map<Key, Stages> stages_;

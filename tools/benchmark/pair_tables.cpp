@@ -98,6 +98,7 @@ std::string agreement(RandomPairs& pairs, const Request& request, int degree) {
 }  // namespace
 
 Table floors_table(RandomPairs& pairs, const Request& request) {
+  pairs.measure(request.degrees, request.seeds, 0);
   Table table{
       "floors",
       "Random pairs in [-1,1]^2; a floor is four Newton steps at each crossing (together: "
@@ -128,6 +129,7 @@ Table floors_table(RandomPairs& pairs, const Request& request) {
 }
 
 Table work_table(RandomPairs& pairs, const Request& request) {
+  pairs.measure(request.degrees, request.seeds, 0);
   Table table{"work",
               "Random pairs: cells (least: what lines can hardly go below), boxes, local "
               "expansions, lines, and how questions were decided",
@@ -163,6 +165,7 @@ Table work_table(RandomPairs& pairs, const Request& request) {
 }
 
 Table cgal_table(RandomPairs& pairs, const Request& request) {
+  pairs.measure(request.degrees, request.seeds, request.cgal_degrees);
   Table table{
       "cgal",
       "Random pairs in [-1,1]^2, ours and CGAL's Algebraic_kernel_d_2 with CORE",
