@@ -158,6 +158,26 @@ TEST(IsolateRoots, RootsAtCornersAndOnCutsAreFoundOnce) {
   expect_proved<2>(result, curves);
 }
 
+TEST(IsolateRoots, RootsNextToCutsAreFoundOnce) {
+  // From both boxes beside a cut: of so many roots some lie that close to one.
+  std::size_t total = 0;
+  for (const int degree : {4, 6, 10})
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      RandomOptions options;
+      options.degree = degree;
+      options.seed = seed;
+      std::vector<FilteredFunction<2>> curves;
+      for (const auto& p : random_polynomials<2>(options)) curves.emplace_back(p);
+      const auto result = isolate<2>(curves, Box<2>{{-1, -1}, {1, 1}});
+      for (std::size_t i = 0; i < result.roots.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+          EXPECT_FALSE(result.roots[i].meets(result.roots[j]))
+              << "degree " << degree << ", seed " << seed << ", roots " << i << " and " << j;
+      total += result.roots.size();
+    }
+  EXPECT_GT(total, 5000u);
+}
+
 TEST(IsolateRoots, CloseRootsAreTold) {
   // The circle x^2 + y^2 = e^2 and a line through its centre.
   for (const std::string e : {"1e-3", "1e-6", "1e-9"}) {
