@@ -11,8 +11,8 @@
 
 #include "common/simd_rows-inl.hpp"
 
-#ifndef ENCASE_CUBIC_SOURCE_SHARED
-#define ENCASE_CUBIC_SOURCE_SHARED
+#ifndef ENCASE_CHEBYSHEV_NET_SHARED
+#define ENCASE_CHEBYSHEV_NET_SHARED
 namespace encase {
 
 /// Sums over a Chebyshev net: of the absolute values of the coefficients of degrees up to 7; of the

@@ -26,6 +26,16 @@ SystemNet on_box(const Tile& f, const Tile& g, const Box<2>& box) {
   return net;
 }
 
+/// The same, from tiles of the box's own.
+SystemNet expanded_on(const FilteredFunction<2>& f, const FilteredFunction<2>& g,
+                      const Box<2>& box) {
+  Kernel kernel;
+  Tile tile_f, tile_g;
+  TiledFunction(f, box, kernel).expand(box, 53, &tile_f);
+  TiledFunction(g, box, kernel).expand(box, 53, &tile_g);
+  return on_box(tile_f, tile_g, box);
+}
+
 /// Quarter k + 2 m of a box, as `quarter` numbers them.
 Box<2> quarter_of(const Box<2>& box, int rows_axis, int number) {
   Box<2> part = box;
@@ -215,13 +225,7 @@ TEST(SystemNet, RoundingsAreWithinTheRadii) {
 TEST(SystemNet, OfTilesThatClaimNothingProvesNothing) {
   const FilteredFunction<2> f(written::polynomial<2>("x^3 + y^3 + 1")),
       g(written::polynomial<2>("x^3 - y^2 + 2"));
-  Kernel kernel;
-  const Box<2> box{{-1e300, -1e300}, {1e300, 1e300}};
-  TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
-  Tile tile_f, tile_g;
-  of_f.expand(box, 53, &tile_f);
-  of_g.expand(box, 53, &tile_g);
-  const SystemNet net = on_box(tile_f, tile_g, box);
+  const SystemNet net = expanded_on(f, g, Box<2>{{-1e300, -1e300}, {1e300, 1e300}});
   EXPECT_FALSE(net.excluded());
   std::array<bool, 2> empty{false, false};
   SystemNet quarters[4], part;
@@ -252,15 +256,9 @@ TEST(SystemNet, OnAPartWithoutWidthProvesNothing) {
 TEST(SystemNet, OnAPartOfHugeNetsProvesNothing) {
   const FilteredFunction<2> f(written::polynomial<2>("x^10 + y^10 + 1")),
       g(written::polynomial<2>("x^3 + y"));
-  Kernel kernel;
   for (const int exponent : {50, 65}) {
     const double size = std::ldexp(1.0, exponent);
-    const Box<2> box{{-size, -size}, {size, size}};
-    TiledFunction of_f(f, box, kernel), of_g(g, box, kernel);
-    Tile tile_f, tile_g;
-    of_f.expand(box, 53, &tile_f);
-    of_g.expand(box, 53, &tile_g);
-    const SystemNet net = on_box(tile_f, tile_g, box);
+    const SystemNet net = expanded_on(f, g, Box<2>{{-size, -size}, {size, size}});
     ASSERT_TRUE(std::isfinite(net.of[0].radius));
     SystemNet part;
     restrict_to(net, {{0.25, 0}, {0.5, 1}}, &part);
